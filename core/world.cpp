@@ -1,3 +1,4 @@
+#include "core/base/names_of.h"
 #include "core/world.h"
 
 #include <fmt/format.h>
@@ -22,18 +23,32 @@ namespace {
 
 constexpr const char* kDefault = "dormand-prince";  // correct at any step
 
+const OptionInfo kThreadsOption{.name = "threads",
+                                .meaning = "threads that share the bodies of a large scene; the result is the same",
+                                .min = 1,
+                                .max = 64,
+                                .whole = true,
+                                .by_default = 1.0};
+
+OptionInfo orientation_option(const Integrator& integrator) {
+  return {.name = "orientation",
+          .meaning = "how a rotation is carried over a step",
+          .choices = names_of(orientation_updates()),
+          .by_default = integrator.default_orientation};
+}
+
 class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
  public:
   CoreWorld(const Scene& scene, const Integrator& integrator, const Settings& settings)
       : system_(scene),
         integrator_(integrator),
-        tolerance_(number_option(settings, "tolerance", kDefaultTolerance)),
+        tolerance_(number_option(settings, kToleranceOption)),
         contact_method_(settings.options.contains("contact") ? contact_method(settings.options.at("contact"))
                                                              : contact_method_for(scene)) {
     if (!integrator_.default_orientation.empty()) {
-      orientation_ = &orientation_update(word_option(settings, "orientation", integrator_.default_orientation));
+      orientation_ = &orientation_update(word_option(settings, orientation_option(integrator_)));
     }
-    system_.constants.use_threads(static_cast<int>(number_option(settings, "threads", 1)));
+    system_.constants.use_threads(static_cast<int>(number_option(settings, kThreadsOption)));
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
     if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_), on_loop_ = joints_on_loops(scene);
@@ -144,19 +159,13 @@ const Features kJointFeatures = joined(
                             Feature::motor_effort, Feature::motor_servo, Feature::motor_speed, Feature::motor_table,
                             Feature::joints_with_dampers, Feature::joint_limit, Feature::joint_limit_beyond_half_turn});
 
-template <typename Rows>
-std::vector<std::string> names_of(const Rows& rows) {
-  std::vector<std::string> names;
-  for (const auto& row : rows) names.push_back(row.name);
-  return names;
-}
-
 OptionInfo contact_option() {
   OptionInfo option{.name = "contact",
-                    .meaning = "how touching bodies are treated; default event where at most " +
-                               std::to_string(kFewCollidingBodies) +
-                               " bodies that move collide, else the first that has what the scene needs",
-                    .choices = names_of(contact_methods())};
+                    .meaning = "how touching bodies are treated",
+                    .choices = names_of(contact_methods()),
+                    .by_default = DefaultRule{fmt::format("event for at most {} colliding moving bodies, else the "
+                                                          "first that supports the scene",
+                                                          kFewCollidingBodies)}};
   for (const ContactMethod& method : contact_methods()) option.features_of_choice[method.name] = method.features;
   return option;
 }
@@ -170,18 +179,8 @@ MethodInfo method_info(const Integrator& integrator) {
                   .leapfrog_stagger = integrator.leapfrog_stagger,
                   .adaptive = integrator.adaptive,
                   .options = {contact_option()}};
-  info.options.push_back(
-      {.name = "threads",
-       .meaning = "threads that share the bodies of a large scene; default 1, and the result is the same",
-       .min = 1,
-       .max = 64,
-       .whole = true});
-  if (!integrator.default_orientation.empty()) {
-    info.options.push_back(
-        {.name = "orientation",
-         .meaning = "how a rotation is carried over a step; default " + integrator.default_orientation,
-         .choices = names_of(orientation_updates())});
-  }
+  info.options.push_back(kThreadsOption);
+  if (!integrator.default_orientation.empty()) info.options.push_back(orientation_option(integrator));
   for (const ContactMethod& method : contact_methods()) {
     info.options.insert(info.options.end(), method.options.begin(), method.options.end());
   }

@@ -4,7 +4,8 @@
 
 #include <map>
 
-#include "adapters/bullet/bullet_matched.h"
+#include "adapters/bullet/bullet_options.h"
+#include "core/engine/option_values.h"
 
 namespace rigor {
 namespace {
@@ -29,9 +30,9 @@ std::vector<std::string> multibody_calls(bool is_matched) {
 
 // The values that the matched track takes from the scene if the run does not set them.
 void add_matched_defaults(const Settings& settings, std::vector<std::string>& calls) {
-  if (!settings.options.contains("erp"))
+  if (!is_named(settings, bullet::kErpOption))
     calls.push_back(fmt::format("world->getSolverInfo().m_erp = {};  // in a scene with joints", bullet::kErp));
-  if (settings.method == "mlcp" && !settings.options.contains("cfm")) {
+  if (settings.method == "mlcp" && !is_named(settings, bullet::kDirectCfm)) {
     calls.push_back(
         fmt::format("world->getSolverInfo().m_globalCfm = {} * dt / heaviest_mass;  // {} in a scene without joints",
                     bullet::kJointSoftness, bullet::kContactSoftness));

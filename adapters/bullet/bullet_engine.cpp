@@ -7,9 +7,11 @@
 #include "adapters/bullet/bullet_matched.h"
 #include "adapters/bullet/bullet_multibody_twin.h"
 #include "adapters/bullet/bullet_multibody_world.h"
+#include "adapters/bullet/bullet_options.h"
 #include "adapters/bullet/bullet_turn.h"
 #include "adapters/bullet/bullet_twin.h"
 #include "adapters/bullet/bullet_world.h"
+#include "adapters/common/coordinate_features.h"
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "core/engine/run_name.h"
@@ -23,39 +25,19 @@ const Features kBulletContacts = contacts_among<Box, Capsule, Convex, Cylinder, 
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
 
-const Features kJoints = {joint_feature<BallJoint>(),
-                          joint_feature<CylindricalJoint>(),
-                          joint_feature<FixedJoint>(),
-                          joint_feature<HingeJoint>(),
-                          joint_feature<SliderJoint>(),
-                          joint_feature<UniversalJoint>(),
-                          Feature::joint_spring,
-                          Feature::joint_damper,
-                          Feature::joints_with_dampers,
-                          Feature::joints_with_contacts,
-                          Feature::joint_limit,
-                          Feature::motor_effort,
-                          Feature::motor_speed,
-                          Feature::joint_friction,
-                          Feature::motor_servo,
-                          Feature::motor_table,
-                          Feature::joint_limit_beyond_half_turn};
-
-std::vector<OptionInfo> options_of_rigid_bodies() {
-  return {{"gyroscopic", "the gyroscopic torque", {"implicit-body", "implicit-world", "explicit", "off"}},
-          {"split-impulse", "penetration corrected without adding velocity", {"on", "off"}},
-          {"erp", "share of a joint's error corrected in one step", {}, 0, 1},
-          {"cfm", "constraint force mixing: softness of joints and contacts", {}, 0, 1}};
-}
+const Features kJoints =
+    joined(kCoordinateFeatures, {joint_feature<BallJoint>(), joint_feature<CylindricalJoint>(),
+                                 joint_feature<FixedJoint>(), joint_feature<HingeJoint>(), joint_feature<SliderJoint>(),
+                                 joint_feature<UniversalJoint>(), Feature::joints_with_contacts, Feature::joint_limit,
+                                 Feature::motor_speed, Feature::joint_friction, Feature::joint_limit_beyond_half_turn});
 
 MethodInfo sequential_impulse() {
-  MethodInfo method = {.name = "sequential-impulse",
-                       .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
-                       .leapfrog_stagger = 0.5,
-                       .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
-                       .options = options_of_rigid_bodies()};
-  method.options.insert(method.options.begin(), {"iterations", "sweeps of the solver a step", {}, 1, 10000, true});
-  return method;
+  return {
+      .name = "sequential-impulse",
+      .summary = "semi-implicit Euler, joints and contacts by projected Gauss-Seidel",
+      .leapfrog_stagger = 0.5,
+      .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
+      .options = {bullet::kIterations, bullet::kGyroscopic, bullet::kSplitImpulse, bullet::kErpOption, bullet::kCfm}};
 }
 
 MethodInfo mlcp() {
@@ -65,7 +47,7 @@ MethodInfo mlcp() {
               "the cube of its rows, 30 ms for 500",
           .leapfrog_stagger = 0.5,
           .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
-          .options = options_of_rigid_bodies()};
+          .options = {bullet::kGyroscopic, bullet::kSplitImpulse, bullet::kErpOption, bullet::kDirectCfm}};
 }
 
 // Its contacts push an overlap out by a speed that stays, which adds to a rebound: restitution is left out.
@@ -77,7 +59,7 @@ MethodInfo multibody() {
           .leapfrog_stagger = 0.5,
           .lacks = {Feature::joint_limit_that_bounces, Feature::joint_loop, Feature::restitution,
                     Feature::two_speeds_at_once},
-          .options = {{"iterations", "sweeps of the solver a step", {}, 1, 10000, true}}};
+          .options = {bullet::kIterations}};
 }
 
 }  // namespace
@@ -101,17 +83,16 @@ std::unique_ptr<World> BulletEngine::load(const Scene& scene, const Settings& se
   return std::make_unique<BulletWorld>(scene, settings);
 }
 
-// The defaults are those that BulletWorld sets or leaves. An unnamed cfm follows from the masses, in the twin as there.
+// An unnamed cfm follows from the masses, in the engine and in its twin.
 // On the stock track jointed bodies fall asleep together, and reduced coordinates are damped; the twin repeats neither.
 std::string BulletEngine::twin(const Settings& settings) const {
   if (settings.method == "multibody") return settings.track == Track::matched ? "core:bullet-multibody-twin" : "";
-  std::string name =
-      "core:bullet-twin,gyroscopic=" + word_option(settings, "gyroscopic", "implicit-body") + ",sleeping=";
+  std::string name = "core:bullet-twin,gyroscopic=" + word_option(settings, bullet::kGyroscopic) + ",sleeping=";
   if (settings.track == Track::stock)
     return fmt::format("{}on,gyroscopic-limit={},joints=none", name, btContactSolverInfo().m_maxGyroscopicForce);
   if (settings.method != "mlcp") return name + "off,joints=none";
-  name += fmt::format("off,erp={},joints=direct", number_option(settings, "erp", bullet::kErp));
-  return settings.options.contains("cfm") ? name + ",cfm=" + settings.options.at("cfm") : name;
+  name += fmt::format("off,erp={},joints=direct", number_option(settings, bullet::kErpOption, bullet::kErp));
+  return is_named(settings, bullet::kDirectCfm) ? name + ",cfm=" + settings.options.at("cfm") : name;
 }
 
 EngineRow bullet_row() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "adapters/bullet/bullet_options.h"
 #include "adapters/common/option_values.h"
 
 namespace rigor {
@@ -22,7 +23,7 @@ BulletMultibodyWorld::BulletMultibodyWorld(const Scene& scene, const Settings& s
     : rows_(scene.bodies.size()), loads_(scene), coordinates_(scene.joints.size()), shapes_(scene) {
   world_.setGravity(to_bullet(scene.gravity));
   btContactSolverInfo& solver = world_.getSolverInfo();
-  solver.m_numIterations = static_cast<int>(number_option(settings, "iterations", solver.m_numIterations));
+  solver.m_numIterations = static_cast<int>(number_option(settings, bullet::kIterations));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Body& body = scene.bodies[i];
     Row& row = rows_[i];

@@ -20,6 +20,7 @@
 #include <limits>
 
 #include "adapters/bullet/bullet_matched.h"
+#include "adapters/bullet/bullet_options.h"
 #include "adapters/bullet/bullet_turn.h"
 #include "adapters/bullet/bullet_twin_joints.h"
 #include "core/engine/option_values.h"
@@ -27,7 +28,6 @@
 namespace rigor {
 namespace {
 
-constexpr double kNoLimit = 1e30;                               // N m
 constexpr double kSlow = 0.8, kSlowTurn = 1, kTimeToSleep = 2;  // m/s, rad/s, s
 
 // The inputs of the gyroscopic torque: the inertia in W and in B, the orientation, w in W, the step, and the limit [N
@@ -82,15 +82,15 @@ class BulletTwin : public Stepper {
  public:
   explicit BulletTwin(const StepperParts& parts)
       : parts_(parts),
-        gyroscopic_change_(gyroscopic_change(word_option(parts.settings, "gyroscopic", "implicit-body"))),
-        limit_(number_option(parts.settings, "gyroscopic-limit", kNoLimit)),
-        may_sleep_(word_option(parts.settings, "sleeping", "off") == "on"),
+        gyroscopic_change_(gyroscopic_change(word_option(parts.settings, bullet::kGyroscopic))),
+        limit_(number_option(parts.settings, bullet::kGyroscopicLimit)),
+        may_sleep_(word_option(parts.settings, bullet::kSleeping) == "on"),
         time_slow_(parts.system.size()) {
     if (!parts.scene || parts.scene->joints.empty()) return;
-    const bool has_cfm = parts.settings.options.contains("cfm");
+    const bool has_cfm = is_named(parts.settings, bullet::kTwinCfm);
     joints_ = std::make_unique<BulletTwinJoints>(
-        *parts.scene, parts.system, number_option(parts.settings, "erp", bullet::kErp),
-        has_cfm ? std::optional(number_option(parts.settings, "cfm", 0)) : std::nullopt);
+        *parts.scene, parts.system, number_option(parts.settings, bullet::kTwinErp),
+        has_cfm ? std::optional(number_option(parts.settings, bullet::kTwinCfm, 0)) : std::nullopt);
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {
@@ -158,16 +158,15 @@ const Integrator kBulletTwin = {
     .takes_joints = true,
     .lacks = {joint_feature<DistanceJoint>(), Feature::joint_limit, Feature::joints_with_contacts,
               Feature::joint_friction, Feature::motor_servo, Feature::motor_speed},  // no rows with bounds
-    .options = {{"gyroscopic",
-                 "the gyroscopic torque; default implicit-body",
-                 {"implicit-body", "implicit-world", "explicit", "off"}},
-                {"gyroscopic-limit", "where the explicit torque is cut off [N m]; default nowhere", {}, 0, kNoLimit},
-                {"sleeping", "whether slow bodies fall asleep; default off", {"on", "off"}},
-                {"erp", "share of a joint's gap closed in one step; default that of bullet's matched track", {}, 0, 1},
-                {"cfm", "softness of the joints' rows; default that of bullet:mlcp's matched track", {}, 0, 1},
+    .options = {bullet::kGyroscopic,
+                bullet::kGyroscopicLimit,
+                bullet::kSleeping,
+                bullet::kTwinErp,
+                bullet::kTwinCfm,
                 {.name = "joints",
                  .meaning = "direct: as mlcp solves for them; none: sweeps of sequential impulses are not repeated",
                  .choices = {"direct", "none"},
+                 .by_default = DefaultRule{"the first that has the scene's joints"},
                  .features_of_choice = {{"direct", kJointKinds}, {"none", {}}}}},
     .twin_of = "bullet",
     .make = make_stepper<BulletTwin>,

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "adapters/bullet/bullet_matched.h"
+#include "adapters/bullet/bullet_options.h"
 #include "adapters/bullet/bullet_pair_laws.h"
 #include "adapters/common/option_values.h"
 
@@ -100,16 +101,18 @@ void BulletWorld::apply(const Settings& settings) {
     // it.
     configuration_.setPlaneConvexMultipointIterations(kCorners, kCorners);
   }
-  solver.m_numIterations = static_cast<int>(number_option(settings, "iterations", solver.m_numIterations));
-  solver.m_erp = number_option(settings, "erp", solver.m_erp);
-  solver.m_globalCfm = number_option(settings, "cfm", solver.m_globalCfm);
-  solver.m_splitImpulse = word_option(settings, "split-impulse", on_off(solver.m_splitImpulse)) == "on";
+  if (const auto iterations = number_to_set(settings, bullet::kIterations))
+    solver.m_numIterations = static_cast<int>(*iterations);
+  if (const auto erp = number_to_set(settings, bullet::kErpOption)) solver.m_erp = *erp;
+  const OptionInfo& cfm_option = settings.method == "mlcp" ? bullet::kDirectCfm : bullet::kCfm;
+  if (const auto cfm = number_to_set(settings, cfm_option)) solver.m_globalCfm = *cfm;
+  if (const auto split = word_to_set(settings, bullet::kSplitImpulse)) solver.m_splitImpulse = *split == "on";
 }
 
 // Values that follow from the scene if the run does not set them.
 void BulletWorld::match(const Scene& scene, const Settings& settings) {
-  if (!scene.joints.empty() && !settings.options.contains("erp")) world_.getSolverInfo().m_erp = bullet::kErp;
-  if (settings.method == "mlcp" && !settings.options.contains("cfm")) softness_ = bullet::softness(scene);
+  if (!scene.joints.empty() && !is_named(settings, bullet::kErpOption)) world_.getSolverInfo().m_erp = bullet::kErp;
+  if (settings.method == "mlcp" && !is_named(settings, bullet::kDirectCfm)) softness_ = bullet::softness(scene);
 }
 
 void BulletWorld::add_body(const Body& body, const Settings& settings) {
@@ -136,8 +139,8 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
   if (row.moves) {
     row.body->setLinearVelocity(to_bullet(body.velocity));
     row.body->setAngularVelocity(to_bullet(body.angular_velocity));
-    const std::string gyroscopic = word_option(settings, "gyroscopic", gyroscopic_mode(*row.body));
-    row.body->setFlags(kGyroscopicFlags.at(gyroscopic));
+    if (const auto gyroscopic = word_to_set(settings, bullet::kGyroscopic))
+      row.body->setFlags(kGyroscopicFlags.at(*gyroscopic));
   }
   if (matched_) {
     if (row.moves) row.body->setActivationState(DISABLE_DEACTIVATION);

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "adapters/dart/dart_matched.h"
+#include "adapters/dart/dart_options.h"
 #include "core/engine/option_values.h"
 
 namespace rigor {
@@ -20,13 +20,13 @@ std::vector<std::string> dart_calls(const Settings& settings, const std::string&
                                fmt::format("world->getConstraintSolver()->getCollisionOption().maxNumContacts = {};",
                                            kDartMostContacts)});
   }
-  const auto set = [&](const std::string& option, const char* call, double contacts, double loops) {
-    if (!matched && !settings.options.contains(option)) return;
+  const auto set = [&](const OptionInfo& option, const char* call, double contacts, double loops) {
+    if (!matched && !is_named(settings, option)) return;
     calls.push_back(fmt::format("ContactConstraint::{}({});", call, number_option(settings, option, contacts)));
     calls.push_back(fmt::format("DynamicJointConstraint::{}({});", call, number_option(settings, option, loops)));
   };
-  set("erp", "setErrorReductionParameter", kDartContactErp, kDartLoopErp);
-  set("cfm", "setConstraintForceMixing", kDartCfm, kDartCfm);
+  set(kDartErp, "setErrorReductionParameter", kDartContactErp, kDartLoopErp);
+  set(kDartSoftness, "setConstraintForceMixing", kDartCfm, kDartCfm);
   if (matched) calls.push_back(fmt::format("ContactConstraint::setMaxErrorReductionVelocity({});", kDartContactSpeed));
   calls.push_back(fmt::format("world->setTimeStep({}); world->step();", dt));
   return calls;

@@ -2,9 +2,11 @@
 
 #include <dart/config.hpp>
 
+#include "adapters/common/coordinate_features.h"
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "adapters/dart/dart_calls.h"
+#include "adapters/dart/dart_options.h"
 #include "adapters/dart/dart_twin.h"
 #include "adapters/dart/dart_world.h"
 #include "core/engine/run_name.h"
@@ -17,34 +19,18 @@ const Features kDartContacts = {contact_feature<Box, Box>(), contact_feature<Box
                                 contact_feature<Box, Sphere>(), contact_feature<Plane, Sphere>(),
                                 contact_feature<Sphere, Sphere>()};
 
-const Features kDartJoints = {joint_feature<BallJoint>(),
-                              joint_feature<FixedJoint>(),
-                              joint_feature<HingeJoint>(),
-                              joint_feature<SliderJoint>(),
-                              joint_feature<UniversalJoint>(),
-                              Feature::joint_spring,
-                              Feature::joint_damper,
-                              Feature::joint_limit,
-                              Feature::joint_limit_beyond_half_turn,
-                              Feature::joints_with_contacts,
-                              Feature::joints_with_dampers,
-                              Feature::motor_effort,
-                              Feature::joint_friction,
-                              Feature::motor_servo,
-                              Feature::motor_table,
-                              Feature::motor_speed};
-
-std::vector<OptionInfo> options_of_solvers() {
-  return {{"erp", "share of a gap or an overlap corrected in one step", {}, 0, 1},
-          {"cfm", "share by which a constraint's own inverse mass is raised: softness", {}, 1e-9, 1}};
-}
+const Features kDartJoints =
+    joined(kCoordinateFeatures, {joint_feature<BallJoint>(), joint_feature<FixedJoint>(), joint_feature<HingeJoint>(),
+                                 joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(), Feature::joint_limit,
+                                 Feature::joint_limit_beyond_half_turn, Feature::joints_with_contacts,
+                                 Feature::joint_friction, Feature::motor_speed});
 
 MethodInfo by_solver(const std::string& name, const std::string& solver) {
   return {.name = name,
           .summary = "semi-implicit Euler in the joints' coordinates, gyroscopic term explicit; contacts by " + solver,
           .leapfrog_stagger = 0.5,
           .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
-          .options = options_of_solvers()};
+          .options = {kDartErp, kDartSoftness}};
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "adapters/dart/dart_constants.h"
 #include "adapters/dart/dart_contacts.h"
 #include "adapters/dart/dart_matched.h"
+#include "adapters/dart/dart_options.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine_failure.h"
 #include "core/scene/contact_laws.h"
@@ -170,10 +171,8 @@ void DartWorld::set_solver(const Settings& settings) {
 
 void DartWorld::set_constants(const Settings& settings) {
   if (matched_) constants_ = {kDartContactErp, kDartContactSpeed, kDartCfm, kDartLoopErp, kDartCfm};
-  constants_.contact_erp = number_option(settings, "erp", constants_.contact_erp);
-  constants_.loop_erp = number_option(settings, "erp", constants_.loop_erp);
-  constants_.contact_cfm = number_option(settings, "cfm", constants_.contact_cfm);
-  constants_.loop_cfm = number_option(settings, "cfm", constants_.loop_cfm);
+  if (const auto erp = number_to_set(settings, kDartErp)) constants_.contact_erp = constants_.loop_erp = *erp;
+  if (const auto cfm = number_to_set(settings, kDartSoftness)) constants_.contact_cfm = constants_.loop_cfm = *cfm;
 }
 
 // A hinge is two points on its axis, a metre apart: of their six rows one repeats another, which the cfm bears.

@@ -7,6 +7,7 @@
 #include "adapters/mujoco/mujoco_calls.h"
 #include "adapters/mujoco/mujoco_export.h"
 #include "adapters/mujoco/mujoco_import.h"
+#include "adapters/mujoco/mujoco_options.h"
 #include "adapters/mujoco/mujoco_twin.h"
 #include "adapters/mujoco/mujoco_world.h"
 #include "core/engine/run_name.h"
@@ -24,11 +25,7 @@ const Features kMujocoContacts = [] {
 }();
 
 std::vector<OptionInfo> options_of_all() {
-  return {
-      {"cone", "the friction cone, or a pyramid in it", {"elliptic", "pyramidal"}},
-      {"impratio", "how much stiffer friction is than contact", {}, 1e-3, 1e6},
-      {"contact-time", "time constant of contacts, s; as shipped 0.02, and never less than two steps", {}, 1e-6, 10},
-      {"iterations", "of the solver, at most", {}, 1, 10000, true}};
+  return {kMujocoCone, kMujocoImpratio, kMujocoContactTime, kMujocoIterations};
 }
 
 MethodInfo euler() {

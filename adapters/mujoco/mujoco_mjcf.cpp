@@ -1,4 +1,5 @@
 #include "adapters/mujoco/mujoco_mjcf.h"
+#include "adapters/mujoco/mujoco_options.h"
 
 #include <fmt/format.h>
 
@@ -83,15 +84,11 @@ class Writer {
         {"euler", "Euler"}, {"implicit", "implicit"}, {"rk4", "RK4"}};
     add(R"(<option gravity="{}" integrator="{}")", text_of(scene_.gravity), kIntegrators.at(settings_.method));
     const bool matched = settings_.track == Track::matched;
-    const std::string cone = word_option(settings_, "cone", matched ? "elliptic" : "pyramidal");
-    add(R"( cone="{}")", cone);
+    if (const auto cone = word_to_set(settings_, kMujocoCone)) add(R"( cone="{}")", *cone);
     if (matched) add(R"( solver="Newton" tolerance="1e-10")");  // with 1e-15 its line search fails now and then
-    const auto number = [&](const char* option, const char* attribute, double matched_value) {
-      if (matched || settings_.options.contains(option))
-        add(R"( {}="{}")", attribute, number_option(settings_, option, matched_value));
-    };
-    number("iterations", "iterations", 200);
-    number("impratio", "impratio", 100);
+    for (const OptionInfo& option : {kMujocoIterations, kMujocoImpratio}) {
+      if (const auto number = number_to_set(settings_, option)) add(R"( {}="{}")", option.name, *number);
+    }
     // As shipped, bodies that share a joint never touch. Here the scene alone says which pairs do.
     add("><flag filterparent=\"disable\"/></option>\n");
   }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "adapters/mujoco/mujoco_mjcf.h"
+#include "adapters/mujoco/mujoco_options.h"
 #include "core/dynamics/model/loads/loads.h"
 #include "core/engine/option_values.h"
 
@@ -85,8 +86,8 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
     set_impedance(made_.model->geom_solimp, made_.model->ngeom);
     set_impedance(made_.model->pair_solimp, made_.model->npair);
   }
-  if (settings.options.contains("contact-time")) {
-    const double time = number_option(settings, "contact-time", 0);
+  if (is_named(settings, kMujocoContactTime)) {
+    const double time = number_option(settings, kMujocoContactTime);
     set_time_constant(made_.model->geom_solref, made_.model->ngeom, time);
     set_time_constant(made_.model->pair_solref, made_.model->npair, time);
   }

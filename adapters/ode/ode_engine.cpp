@@ -4,10 +4,12 @@
 #include <ode/ode.h>
 #include <ode/version.h>
 
+#include "adapters/common/coordinate_features.h"
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "adapters/ode/ode_calls.h"
 #include "adapters/ode/ode_matched.h"
+#include "adapters/ode/ode_options.h"
 #include "adapters/ode/ode_twin.h"
 #include "adapters/ode/ode_world.h"
 #include "core/engine/run_name.h"
@@ -21,36 +23,14 @@ const Features kOdeContacts = joined(contacts_among<Box, Capsule, Plane, Sphere>
                                      {contact_feature<Convex, Plane>(), contact_feature<Convex, Sphere>(),
                                       contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>()});
 
-constexpr double kShippedErp = 0.2, kShippedCfm = 1e-10;  // of a new world, in double precision
-
-std::vector<OptionInfo> options_of_both() {
-  return {{"gyroscopic", "the implicit gyroscopic torque", {"on", "off"}},
-          {"rotation",
-           "update of the orientation: the exact turn, or an added quaternion rate",
-           {"finite", "infinitesimal"}},
-          {"erp", "share of a constraint's error corrected in one step", {}, 0, 1},
-          {"cfm", "constraint force mixing: softness of constraints", {}, 0, 1}};
-}
+std::vector<OptionInfo> options_of_both() { return {kOdeGyroscopic, kOdeRotation, kOdeErp, kOdeCfm}; }
 
 Features joints_of_all_kinds() {
-  return {joint_feature<BallJoint>(),
-          joint_feature<CylindricalJoint>(),
-          joint_feature<DistanceJoint>(),
-          joint_feature<FixedJoint>(),
-          joint_feature<HingeJoint>(),
-          joint_feature<SliderJoint>(),
-          joint_feature<UniversalJoint>(),
-          Feature::joint_spring,
-          Feature::joint_damper,
-          Feature::joint_limit,
-          Feature::motor_effort,
-          Feature::motor_speed,
-          Feature::joint_friction,
-          Feature::motor_servo,
-          Feature::motor_table,
-          Feature::joints_with_contacts,
-          Feature::joints_with_dampers,
-          Feature::joint_limit_beyond_half_turn};
+  return joined(kCoordinateFeatures,
+                {joint_feature<BallJoint>(), joint_feature<CylindricalJoint>(), joint_feature<DistanceJoint>(),
+                 joint_feature<FixedJoint>(), joint_feature<HingeJoint>(), joint_feature<SliderJoint>(),
+                 joint_feature<UniversalJoint>(), Feature::joint_limit, Feature::motor_speed, Feature::joint_friction,
+                 Feature::joints_with_contacts, Feature::joint_limit_beyond_half_turn});
 }
 
 MethodInfo by_size() {
@@ -73,8 +53,8 @@ MethodInfo quickstep() {
                        .summary = "semi-implicit Euler, joints and contacts by successive over-relaxation",
                        .leapfrog_stagger = 0.5,
                        .options = options_of_both()};
-  method.options.push_back({"iterations", "sweeps a step", {}, 1, 10000, true});
-  method.options.push_back({"sor", "over-relaxation factor", {}, 0.01, 2});
+  method.options.push_back(kOdeIterations);
+  method.options.push_back(kOdeSor);
   return method;
 }
 
@@ -99,16 +79,13 @@ std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& setti
   return std::make_unique<OdeWorld>(scene, settings);
 }
 
-// Only these options affect smooth motion. The defaults are those that OdeWorld sets. An unnamed cfm follows from the
-// masses, in the twin as there.
+// Only these options affect smooth motion. An unnamed cfm follows from the masses, in the engine and in its twin.
 std::string OdeEngine::twin(const Settings& settings) const {
   const bool matched = settings.track == Track::matched;
   std::string name =
-      fmt::format("core:ode-twin,gyroscopic={},rotation={},erp={}", word_option(settings, "gyroscopic", "on"),
-                  word_option(settings, "rotation", matched ? "finite" : "infinitesimal"),
-                  number_option(settings, "erp", matched ? kMatchedJointErp : kShippedErp));
-  if (!matched || settings.options.contains("cfm"))
-    name += fmt::format(",cfm={}", number_option(settings, "cfm", kShippedCfm));
+      fmt::format("core:ode-twin,gyroscopic={},rotation={},erp={}", word_option(settings, kOdeGyroscopic),
+                  word_option(settings, kOdeRotation), number_option(settings, kOdeErp, kMatchedJointErp));
+  if (!matched || is_named(settings, kOdeCfm)) name += fmt::format(",cfm={}", number_option(settings, kOdeCfm));
   return name + (settings.method == "quickstep" ? ",joints=none" : ",joints=direct");
 }
 

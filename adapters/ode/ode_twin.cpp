@@ -9,7 +9,7 @@
 
 #include <Eigen/LU>
 
-#include "adapters/ode/ode_matched.h"
+#include "adapters/ode/ode_options.h"
 #include "adapters/ode/ode_twin_joints.h"
 #include "core/engine/option_values.h"
 
@@ -20,15 +20,14 @@ class OdeTwin : public Stepper {
  public:
   explicit OdeTwin(const StepperParts& parts)
       : parts_(parts),
-        is_gyroscopic_(word_option(parts.settings, "gyroscopic", "on") == "on"),
-        turn_(orientation_update(word_option(parts.settings, "rotation", "finite") == "finite"
-                                     ? "quaternion-exponential"
-                                     : "quaternion-additive")) {
+        is_gyroscopic_(word_option(parts.settings, kOdeGyroscopic) == "on"),
+        turn_(orientation_update(word_option(parts.settings, kOdeTwinRotation) == "finite" ? "quaternion-exponential"
+                                                                                           : "quaternion-additive")) {
     if (!parts.scene || parts.scene->joints.empty()) return;
-    const bool has_cfm = parts.settings.options.contains("cfm");
+    const bool has_cfm = is_named(parts.settings, kOdeTwinCfm);
     joints_ = std::make_unique<OdeTwinJoints>(
-        *parts.scene, parts.system, number_option(parts.settings, "erp", kMatchedJointErp),
-        has_cfm ? std::optional(number_option(parts.settings, "cfm", 0)) : std::nullopt);
+        *parts.scene, parts.system, number_option(parts.settings, kOdeTwinErp),
+        has_cfm ? std::optional(number_option(parts.settings, kOdeTwinCfm, 0)) : std::nullopt);
   }
 
   void step(MutableBodyColumns state, double t, double dt) override {
@@ -81,15 +80,14 @@ const Integrator kOdeTwin = {
     .takes_joints = true,
     .lacks = {Feature::joint_limit, Feature::joints_with_contacts, Feature::joint_friction, Feature::motor_servo,
               Feature::motor_speed},  // rows that act on one side or up to a bound
-    .options = {{"gyroscopic", "the implicit gyroscopic torque; default on", {"on", "off"}},
-                {"rotation",
-                 "update of the orientation: the exact turn (default), or an added quaternion rate",
-                 {"finite", "infinitesimal"}},
-                {"erp", "share of a joint's gap closed in one step; default that of ode's matched track", {}, 0, 1},
-                {"cfm", "softness of the joints' rows; default that of ode's matched track", {}, 0, 1},
+    .options = {kOdeGyroscopic,
+                kOdeTwinRotation,
+                kOdeTwinErp,
+                kOdeTwinCfm,
                 {.name = "joints",
                  .meaning = "direct: as worldstep solves for them; none: quickstep's sweeps are not repeated",
                  .choices = {"direct", "none"},
+                 .by_default = DefaultRule{"the first that has the scene's joints"},
                  .features_of_choice = {{"direct", kJointKinds}, {"none", {}}}}},
     .twin_of = "ode",
     .make = make_stepper<OdeTwin>,

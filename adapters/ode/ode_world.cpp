@@ -9,6 +9,7 @@
 #include "adapters/common/option_values.h"
 #include "adapters/ode/ode_library.h"
 #include "adapters/ode/ode_matched.h"
+#include "adapters/ode/ode_options.h"
 
 namespace rigor {
 namespace {
@@ -94,16 +95,16 @@ void OdeWorld::apply(const Settings& settings, const Scene& scene) {
     dWorldSetAutoDisableFlag(world_, 0);
     dWorldSetDamping(world_, 0, 0);
   }
-  contact_erp_ = number_option(settings, "erp", dWorldGetERP(world_));
-  const bool own_erp = matched_ && !scene.joints.empty() && !settings.options.contains("erp");
+  contact_erp_ = number_to_set(settings, kOdeErp).value_or(dWorldGetERP(world_));
+  const bool own_erp = matched_ && !scene.joints.empty() && !is_named(settings, kOdeErp);
   dWorldSetERP(world_, own_erp ? kMatchedJointErp : contact_erp_);
-  dWorldSetCFM(world_, number_option(settings, "cfm", dWorldGetCFM(world_)));
-  if (matched_ && (can_touch_ || !scene.joints.empty()) && !settings.options.contains("cfm")) {
+  if (const auto cfm = number_to_set(settings, kOdeCfm)) dWorldSetCFM(world_, *cfm);
+  if (matched_ && (can_touch_ || !scene.joints.empty()) && !is_named(settings, kOdeCfm)) {
     softness_ = matched_softness(scene), softness_share_ = matched_softness_share(scene);
   }
-  dWorldSetQuickStepNumIterations(
-      world_, static_cast<int>(number_option(settings, "iterations", dWorldGetQuickStepNumIterations(world_))));
-  dWorldSetQuickStepW(world_, number_option(settings, "sor", dWorldGetQuickStepW(world_)));
+  if (const auto iterations = number_to_set(settings, kOdeIterations))
+    dWorldSetQuickStepNumIterations(world_, static_cast<int>(*iterations));
+  if (const auto sor = number_to_set(settings, kOdeSor)) dWorldSetQuickStepW(world_, *sor);
 }
 
 void OdeWorld::add_body(const Body& body, const Settings& settings) {
@@ -119,9 +120,9 @@ void OdeWorld::add_body(const Body& body, const Settings& settings) {
     // Both velocities are in the world frame, of the centre of mass, in ODE as here.
     dBodySetLinearVel(id, body.velocity.x(), body.velocity.y(), body.velocity.z());
     dBodySetAngularVel(id, body.angular_velocity.x(), body.angular_velocity.y(), body.angular_velocity.z());
-    const std::string rotation = word_option(settings, "rotation", matched_ ? "finite" : "infinitesimal");
-    dBodySetFiniteRotationMode(id, rotation == "finite");
-    dBodySetGyroscopicMode(id, word_option(settings, "gyroscopic", "on") == "on");
+    if (const auto rotation = word_to_set(settings, kOdeRotation))
+      dBodySetFiniteRotationMode(id, *rotation == "finite");
+    if (const auto gyroscopic = word_to_set(settings, kOdeGyroscopic)) dBodySetGyroscopicMode(id, *gyroscopic == "on");
   }
   bodies_.push_back(id);
   standing_.push_back({body.position, body.orientation, Vec3::Zero(), Vec3::Zero()});

@@ -9,6 +9,7 @@
 #include "adapters/plugin/in_quotes.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
+#include "core/base/near_match.h"
 #include "core/engine/run_name.h"
 
 namespace rigor {
@@ -103,14 +104,34 @@ class InfoTable {
   std::string what_, path_;
 };
 
+// A choice, or a number in the range. A text in place of a number is a rule.
+OptionDefault read_default(const InfoTable& table, const char* key, const OptionInfo& option) {
+  const Json* found = table.find(key);
+  if (!option.choices.empty()) {
+    const std::string word = table.text(key);
+    if (std::find(option.choices.begin(), option.choices.end(), word) == option.choices.end())
+      table.refuse(key, found, listed(option.choices));
+    return word;
+  }
+  if (found->is_string()) return DefaultRule{table.text(key)};
+  const double number = table.number(key, option.min, 0);
+  if (number > option.max || (option.whole && number != std::floor(number)))
+    table.refuse(key, found,
+                 fmt::format("a {} from {} to {}", option.whole ? "whole number" : "number", option.min, option.max));
+  return number;
+}
+
 OptionInfo read_option(const InfoTable& table) {
   OptionInfo option{.name = table.name("name"), .meaning = table.text("meaning", "")};
   option.choices = table.texts("choices");
-  if (!option.choices.empty()) return option;
-  constexpr double kMost = 1e300;
-  option.min = table.number("min", -kMost, -kMost), option.max = table.number("max", -kMost, kMost);
-  option.whole = table.flag("whole");
-  if (option.max < option.min) table.refuse("max", table.find("max"), "no less than min");
+  if (option.choices.empty()) {
+    constexpr double kMost = 1e300;
+    option.min = table.number("min", -kMost, -kMost), option.max = table.number("max", -kMost, kMost);
+    option.whole = table.flag("whole");
+    if (option.max < option.min) table.refuse("max", table.find("max"), "no less than min");
+  }
+  if (table.find("default")) option.by_default = read_default(table, "default", option);
+  if (table.find("stock_default")) option.as_shipped = read_default(table, "stock_default", option);
   return option;
 }
 

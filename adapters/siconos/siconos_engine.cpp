@@ -29,7 +29,7 @@ PluginStart start_of_process() {
 
 }  // namespace
 
-SiconosEngine::SiconosEngine() : ProcessEngine(start_of_process(), read_plugin_info(kSiconosInfo, "rigor-siconos")) {}
+SiconosEngine::SiconosEngine() : ProcessEngine(start_of_process(), read_plugin_info(siconos_info(), "rigor-siconos")) {}
 
 // The stock iteration stops at a residual momentum of 1e-6, far above rounding.
 std::string SiconosEngine::twin(const Settings& settings) const {

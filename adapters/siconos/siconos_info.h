@@ -2,9 +2,16 @@
 // process.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <string>
+
+#include "adapters/siconos/siconos_matched.h"
+
 namespace rigor {
 
-inline constexpr const char* kSiconosInfo = R"({"ok": true, "rigor": 1, "name": "siconos", "version": "4.4.0",
+inline std::string siconos_info() {
+  return fmt::format(R"({{"ok": true, "rigor": 1, "name": "siconos", "version": "4.4.0",
   "precision": "double", "calls": ["run"], "columns": "f64le",
   "features": ["spring", "timed-force", "fixed-body", "restitution", "contact-filter", "friction:none", "friction:coulomb",
     "contact:box-box", "contact:box-capsule", "contact:box-plane", "contact:box-sphere", "contact:capsule-capsule",
@@ -13,10 +20,14 @@ inline constexpr const char* kSiconosInfo = R"({"ok": true, "rigor": 1, "name": 
     "contact:cylinder-plane", "contact:cylinder-sphere", "contact:ellipsoid-plane", "contact:ellipsoid-sphere", "placed-shapes",
     "joint:ball", "joint:fixed", "joint:hinge", "joint:slider", "joint-spring", "joint-damper", "motor:effort",
     "joints-with-contacts", "joints-with-dampers"],
-  "methods": [{"name": "moreau-jean", "summary": "Moreau and Jean's theta method, Coulomb's cone by Gauss-Seidel",
+  "methods": [{{"name": "moreau-jean", "summary": "Moreau and Jean's theta method, Coulomb's cone by Gauss-Seidel",
     "order": 2, "options": [
-    {"name": "theta", "meaning": "weight of the step's end; default 0.5", "min": 0.5, "max": 1},
-    {"name": "tolerance", "meaning": "of the contact solver; default 1e-12", "min": 1e-15, "max": 1},
-    {"name": "iterations", "meaning": "most of the contact solver; default 1000", "min": 1, "max": 1000000, "whole": true}]}]})";
+    {{"name": "theta", "meaning": "weight of the step's end", "default": {}, "min": 0.5, "max": 1}},
+    {{"name": "tolerance", "meaning": "of the contact solver", "default": {},
+      "stock_default": "as shipped", "min": 1e-15, "max": 1}},
+    {{"name": "iterations", "meaning": "most of the contact solver", "default": {},
+      "stock_default": "as shipped", "min": 1, "max": 1000000, "whole": true}}]}}]}})",
+                     kSiconosTheta, kSiconosTolerance, kSiconosIterations);
+}
 
 }  // namespace rigor

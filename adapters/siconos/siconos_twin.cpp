@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "adapters/common/option_values.h"
-#include "adapters/siconos/siconos_matched.h"
+#include "adapters/siconos/siconos_options.h"
 #include "adapters/siconos/siconos_slope.h"
 
 namespace rigor {
@@ -41,7 +41,7 @@ Quat exponential(const Vec3& turn) {
 class SiconosTwin : public Stepper {
  public:
   explicit SiconosTwin(const StepperParts& parts)
-      : system_(parts.system), theta_(number_option(parts.settings, "theta", kSiconosTheta)) {}
+      : system_(parts.system), theta_(number_option(parts.settings, kSiconosThetaOption)) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
     system_.loads.for_each_smooth_part(t, dt, [&](double from, double length) { step_part(state, from, length); });
@@ -126,7 +126,7 @@ const Integrator kSiconosTwin = {
     .leapfrog_stagger = 0,
     .default_orientation = "",
     .takes_contact = false,
-    .options = {{"theta", "weight of the step's end; default 0.5", {}, 0.5, 1}},
+    .options = {kSiconosThetaOption},
     .twin_of = "siconos",
     .make = make_stepper<SiconosTwin>,
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "adapters/common/coordinate_features.h"
 #include "adapters/common/engine_row.h"
 #include "adapters/common/option_values.h"
 #include "adapters/simbody/simbody_calls.h"
@@ -11,13 +12,6 @@
 
 namespace rigor {
 namespace {
-
-OptionInfo accuracy_option(const std::string& by_default) {
-  return {.name = "accuracy",
-          .meaning = "what each inner step may err by, relative to the state's scale; default " + by_default,
-          .min = 1e-12,
-          .max = 0.1};
-}
 
 MethodInfo runge_kutta(const std::string& name, const std::string& summary, int order) {
   return {.name = name, .summary = summary, .order = order};
@@ -32,24 +26,20 @@ MethodInfo semi_explicit_euler() {
           .lacks = {Feature::joint_loop, joint_feature<DistanceJoint>()}};
 }
 
-MethodInfo adaptive(const std::string& name, const std::string& summary, int order, const std::string& accuracy) {
-  return {.name = name,
-          .summary = summary,
-          .order = order,
-          .adaptive = true,
-          .options = {accuracy_option(accuracy + ", as shipped 0.001")}};
+MethodInfo adaptive(const std::string& name, const std::string& summary, int order) {
+  return {.name = name, .summary = summary, .order = order, .adaptive = true, .options = {simbody_accuracy(name)}};
 }
 
 std::vector<MethodInfo> methods() {
   return {
       runge_kutta("merson", "Runge, Kutta and Merson's five stages", 4),
-      adaptive("cpodes", "backward differences of order 1 to 5, by error control", 1, "1e-9"),
+      adaptive("cpodes", "backward differences of order 1 to 5, by error control", 1),
       {.name = "explicit-euler", .summary = "everything from the step's start: swings grow", .leapfrog_stagger = -0.5},
-      adaptive("feldberg", "Runge, Kutta and Fehlberg's six stages, by error control", 4, "1e-9"),
+      adaptive("feldberg", "Runge, Kutta and Fehlberg's six stages, by error control", 4),
       runge_kutta("rk2", "the explicit trapezoid", 2),
       runge_kutta("rk3", "Kutta's three stages", 3),
       semi_explicit_euler(),
-      adaptive("semi-explicit-euler-2", "semi-explicit Euler, its steps halved, by error control", 1, "1e-4"),
+      adaptive("semi-explicit-euler-2", "semi-explicit Euler, its steps halved, by error control", 1),
       {.name = "verlet", .summary = "positions by Taylor, velocities by an iterated trapezoid", .order = 2}};
 }
 
@@ -59,11 +49,11 @@ EngineInfo SimbodyEngine::info() const {
   return {.name = "simbody",
           .version = simbody_version(),
           .precision = "double",
-          .features = {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
-                       joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
-                       joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
-                       Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers,
-                       Feature::motor_effort, Feature::motor_servo, Feature::motor_table},
+          .features =
+              joined(kCoordinateFeatures,
+                     {Feature::spring, Feature::timed_force, Feature::fixed_body, joint_feature<BallJoint>(),
+                      joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(), joint_feature<CylindricalJoint>(),
+                      joint_feature<HingeJoint>(), joint_feature<SliderJoint>(), joint_feature<UniversalJoint>()}),
           .methods = methods()};
 }
 

@@ -315,14 +315,22 @@ std::string simbody_version() {
   return fmt::format("{}.{}.{}", major, minor, build);
 }
 
+OptionInfo simbody_accuracy(const std::string& method) {
+  constexpr double kShipped = 1e-3;
+  OptionInfo option;
+  option.name = "accuracy", option.meaning = "error allowed in each inner step, relative to the state's scale";
+  option.min = 1e-12, option.max = 0.1;
+  option.by_default = row_of(method).accuracy, option.as_shipped = kShipped;
+  return option;
+}
+
 SimbodySteps simbody_steps(const Settings& settings) {
-  const bool matched = settings.track == Track::matched, has_accuracy = settings.options.count("accuracy") > 0;
-  const double of_method = row_of(settings.method).accuracy;
-  if (of_method == 0 && matched) return {true, kLoosest, kConstraintTolerance, false};
-  if (settings.method == "semi-explicit-euler") return {true, {}, {}, false};  // it knows of no error
-  const double accuracy = number_option(settings, "accuracy", of_method);
-  if (matched) return {false, accuracy, accuracy, false};
-  return {false, has_accuracy ? std::optional(accuracy) : std::nullopt, {}, true};
+  const bool matched = settings.track == Track::matched, is_fixed = row_of(settings.method).accuracy == 0;
+  if (is_fixed && matched) return {true, kLoosest, kConstraintTolerance, false};
+  if (settings.method == "semi-explicit-euler") return {true, {}, {}, false};  // it estimates no error
+  if (is_fixed) return {false, {}, {}, true};
+  const std::optional<double> accuracy = number_to_set(settings, simbody_accuracy(settings.method));
+  return matched ? SimbodySteps{false, accuracy, accuracy, false} : SimbodySteps{false, accuracy, {}, true};
 }
 
 std::unique_ptr<World> simbody_world(const Scene& scene, const Settings& settings) {

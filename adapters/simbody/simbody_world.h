@@ -20,6 +20,8 @@ struct SimbodySteps {
   bool reads_between;                          // steps past the end, and interpolates back
 };
 SimbodySteps simbody_steps(const Settings& settings);
+// The option of an adaptive method.
+OptionInfo simbody_accuracy(const std::string& method);
 
 std::unique_ptr<World> simbody_world(const Scene& scene, const Settings& settings);
 

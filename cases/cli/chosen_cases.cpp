@@ -7,7 +7,6 @@
 #include "cases/case/suite.h"
 #include "cases/cli/output.h"
 #include "cases/import/import.h"
-#include "cases/runner/grid.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -27,21 +26,22 @@ void say_how_imported(const Case& definition) {
 
 }  // namespace
 
-std::vector<Case> chosen_cases(const CommandLine& line, const Vocabulary& words) {
-  std::vector<Case> cases = select_cases(line.words, line.suite_dir, words);
-  for (const Case& definition : cases) {
-    if (is_model_file(definition.id) && leads(line)) say_how_imported(definition);
+std::vector<Case> chosen_cases(const CaseWords& cases, const Invocation& invocation, const Vocabulary& words) {
+  std::vector<Case> chosen = select_cases(cases.words, cases.suite.dir, words);
+  for (const Case& definition : chosen) {
+    if (is_model_file(definition.id) && invocation.leads()) say_how_imported(definition);
   }
-  return cases;
+  return chosen;
 }
 
-std::vector<Case> overridden_cases(const CommandLine& line, const Vocabulary& words) {
+std::vector<Case> overridden_cases(const CaseWords& cases, const Invocation& invocation, const Overrides& overrides,
+                                   const Vocabulary& words) {
   std::vector<Case> suited;
   std::vector<std::string> faults;
-  for (Case& definition : chosen_cases(line, words)) {
-    const bool is_named = std::find(line.words.begin(), line.words.end(), definition.id) != line.words.end();
+  for (Case& definition : chosen_cases(cases, invocation, words)) {
+    const bool is_named = std::find(cases.words.begin(), cases.words.end(), definition.id) != cases.words.end();
     try {
-      override_run(definition, {line.dt, line.duration});
+      override_run(definition, overrides);
       suited.push_back(std::move(definition));
     } catch (const InputError& error) {
       if (is_named) throw;

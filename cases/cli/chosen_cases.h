@@ -4,14 +4,16 @@
 #include <vector>
 
 #include "cases/case/vocabulary.h"
-#include "cases/cli/command_line.h"
+#include "cases/cli/commands.h"
+#include "cases/runner/grid.h"
 
 namespace rigor {
 
-std::vector<Case> chosen_cases(const CommandLine& line, const Vocabulary& words);
+std::vector<Case> chosen_cases(const CaseWords& cases, const Invocation& invocation, const Vocabulary& words);
 
-// The same with the line's steps and duration. A case of a family or folder that these do not fit is left out and
+// The same with other steps and another duration. A case of a family or folder that these do not fit is left out and
 // named. Throws InputError for a case that is itself named, and if none is left.
-std::vector<Case> overridden_cases(const CommandLine& line, const Vocabulary& words);
+std::vector<Case> overridden_cases(const CaseWords& cases, const Invocation& invocation, const Overrides& overrides,
+                                   const Vocabulary& words);
 
 }  // namespace rigor

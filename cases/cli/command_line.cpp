@@ -2,54 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <deque>
 #include <thread>
 
-#include "cases/case/suite.h"
-#include "cases/cli/commands.h"
 #include "cases/cli/help.h"
-#include "cases/cli/options.h"
-#include "cases/gates/deviations.h"
 #include "cases/report/json/commit.h"
 #include "cases/report/json/machine.h"
 #include "core/base/error.h"
+#include "core/base/names_of.h"
 #include "core/base/near_match.h"
 
 namespace rigor {
 namespace {
-
-int parse_count(const std::string& text, const std::string& what, int most = 100000) {
-  int count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > most) {
-    throw InputError(fmt::format("{}: '{}' is not a whole number from 1 to {}", what, text, most));
-  }
-  return count;
-}
-
-double parse_factor(const std::string& text) {
-  double factor = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), factor);
-  if (error != std::errc() || end != text.data() + text.size() || !(factor >= 1) || !std::isfinite(factor))
-    throw InputError(fmt::format("--factor: '{}' is not a number of 1 or more", text));
-  return factor;
-}
-
-std::vector<double> parse_times(const std::string& text) {
-  std::vector<double> times;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    const std::string word = text.substr(at, comma - at);
-    const bool is_zero =
-        !word.empty() && word.find_first_not_of("0.") == std::string::npos && word.find('0') != std::string::npos;
-    times.push_back(is_zero ? 0.0 : parse_step_size(word, "--times").seconds);
-    at = comma + 1;
-  }
-  return times;
-}
 
 // An option without a value would take the next option as its value. A variable that is not set leaves an empty value.
 std::string refuse_empty_or_option(std::string& value) {
@@ -93,20 +59,16 @@ std::string versions_of_parts() {
   return text;
 }
 
-std::vector<std::string> command_names() {
-  std::vector<std::string> names;
-  for (const CommandRow& row : commands()) names.push_back(row.name);
-  return names;
-}
-
 // Refuses a word that no option or command took.
 [[noreturn]] void refuse_word(const std::string& word, const CommandRow* row) {
   const bool is_option = word.starts_with("-");
   if (!row && !is_option) {
-    throw InputError(fmt::format("there is no command '{}'{}; there is: {}", word, did_you_mean(word, command_names()),
-                                 listed(command_names())));
+    throw InputError(fmt::format("there is no command '{}'{}; there is: {}", word, did_you_mean(word, names_of(commands())),
+                                 listed(names_of(commands()))));
   }
-  std::vector<std::string> known = row ? row->options : std::vector<std::string>{"--version"};
+  std::vector<std::string> known;
+  if (!row) known.push_back("--version");
+  for (const OptionFact& fact : row ? options_of(*row) : std::vector<OptionFact>()) known.push_back(fact.name);
   known.insert(known.end(), {"--help", "-h"});
   const std::string name = word.substr(0, word.find('='));
   if (is_option) {
@@ -133,57 +95,78 @@ std::vector<std::string> words_of(int argc, const char* const* argv) {
   return {words[1], "--help"};
 }
 
-// Looked for only where a command reads them: a wrong RIGOR_HOME must not stop --help.
-void take_default_folders(const CommandRow& row, CommandLine& line) {
-  const auto takes = [&](const char* option) {
-    return std::find(row.options.begin(), row.options.end(), option) != row.options.end();
-  };
-  if (takes("--suite") && line.suite_dir.empty()) line.suite_dir = default_suite_dir();
-  if (takes("--deviations") && line.adapters_dir.empty()) line.adapters_dir = default_adapters_dir();
+// The values of one option as typed. They are read later, so that an unknown option is reported first.
+struct Typed {
+  std::string text;
+  std::vector<std::string> texts;  // of an option that may be repeated
+  bool is_set = false;             // of a flag
+};
+
+void declare_to(CLI::App& app, const CommandRow& row, const Options& options, std::vector<Typed>& typed) {
+  app.set_help_flag("-h,--help", "print this and exit");
+  app.allow_extras();
+  if (options.words()) app.add_option(row.words, *options.words(), row.words_summary);
+  typed.resize(options.rows().size());
+  for (std::size_t i = 0; i < typed.size(); ++i) {
+    const Options::Row& option = options.rows()[i];
+    if (option.fact.type.empty()) {
+      app.add_flag(option.fact.name, typed[i].is_set);
+      continue;
+    }
+    // A repeatable option takes one value each time, or it would swallow the cases that follow.
+    CLI::Option* added = option.repeats == Options::Repeats::yes
+                             ? app.add_option(option.fact.name, typed[i].texts)->allow_extra_args(false)
+                             : app.add_option(option.fact.name, typed[i].text);
+    added->type_name(option.fact.type)->check(CLI::Validator(refuse_empty_or_option, ""));
+  }
 }
 
-void read_typed(const Typed& typed, CommandLine& line) {
-  for (const std::string& text : typed.dt) {
-    const StepSize dt = parse_step_size(text, "--dt");
-    if (std::find(line.dt.begin(), line.dt.end(), dt) == line.dt.end()) line.dt.push_back(dt);
+void read_typed(const Options& options, const std::vector<Typed>& typed) {
+  for (std::size_t i = 0; i < typed.size(); ++i) {
+    const Options::Row& option = options.rows()[i];
+    if (typed[i].is_set) option.read("");
+    if (!typed[i].text.empty()) option.read(typed[i].text);
+    for (const std::string& text : typed[i].texts) option.read(text);
   }
-  if (!typed.duration.empty()) line.duration = parse_step_size(typed.duration, "--duration").seconds;
-  if (!typed.jobs.empty()) line.jobs = parse_count(typed.jobs, "--jobs");
-  line.every = parse_count(typed.every, "--every");
-  line.limit = parse_step_size(typed.limit, "--timeout").seconds;
-  line.factor = parse_factor(typed.factor);
-  if (!typed.samples.empty()) line.samples = static_cast<std::size_t>(parse_count(typed.samples, "--sample", 1000000));
-  if (!typed.seed.empty()) line.seed = static_cast<unsigned long>(parse_count(typed.seed, "--seed", 1000000000));
-  if (!typed.shard.empty()) line.shard = parse_shard(typed.shard, "--shard");
-  if (!typed.times.empty()) line.times = parse_times(typed.times);
+  options.end_reading();
 }
+
+int cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+// A row of the table, with the command that it makes.
+struct Declared {
+  const CommandRow& row;
+  std::unique_ptr<Command> command;
+  std::shared_ptr<Options> options;
+  std::vector<Typed> typed;
+};
 
 }  // namespace
 
+int CommandLine::run() const {
+  options->prepare_run();
+  return command->run(invocation);
+}
+
 CommandLine parse_command_line(int argc, const char* const* argv, int jobs) {
-  CommandLine line;
-  line.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  Typed typed;
   CLI::App app("", "rigor");
   app.set_version_flag("--version", "rigor " RIGOR_VERSION);
   app.set_help_flag("-h,--help", "print this and exit");
   app.allow_extras();
+  std::deque<Declared> all;
   for (const CommandRow& row : commands()) {
-    CLI::App* command = app.add_subcommand(row.name, row.summary);
-    command->set_help_flag("-h,--help", "print this and exit");
-    command->allow_extras();
-    add_options(*command, row, line, typed);
-    for (CLI::Option* option : command->get_options([](const CLI::Option* o) { return o->get_expected_max() > 0; })) {
-      option->check(CLI::Validator(refuse_empty_or_option, ""));
-    }
+    Declared& declared = all.emplace_back(row, row.make(), std::make_shared<Options>(jobs > 0 ? jobs : cores()));
+    declared.command->declare(*declared.options);
+    declare_to(*app.add_subcommand(row.name, row.summary), row, *declared.options, declared.typed);
   }
   const std::vector<std::string> words = words_of(argc, argv);
   refuse_empty_words(words);
+  CommandLine line;
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::CallForHelp&) {
     const auto chosen = app.get_subcommands();
-    line.printed = chosen.empty() ? help_text() : help_text(*find_command(chosen.front()->get_name()), *chosen.front());
+    line.printed = chosen.empty() ? help_text() : help_text(*find_command(chosen.front()->get_name()));
     return line;
   } catch (const CLI::CallForVersion&) {
     line.printed = app.version() + "\n" + versions_of_parts();
@@ -196,10 +179,11 @@ CommandLine parse_command_line(int argc, const char* const* argv, int jobs) {
   const CommandRow* row = chosen.empty() ? nullptr : find_command(chosen.front()->get_name());
   if (!unknown.empty()) refuse_word(unknown.front(), row);
   if (!row) throw InputError(first_steps());
-  line.command = row->name;
-  line.arguments = arguments_of(words);
-  read_typed(typed, line);
-  take_default_folders(*row, line);
+  for (Declared& declared : all) {
+    if (&declared.row != row) continue;
+    read_typed(*declared.options, declared.typed);
+    line = {{row->name, arguments_of(words)}, std::move(declared.command), "", declared.options};
+  }
   return line;
 }
 

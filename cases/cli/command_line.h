@@ -1,50 +1,22 @@
-// The values of a command line. Each command checks its own words.
+// A command line: the command with its options, read.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
-#include <vector>
 
-#include "cases/case/case.h"
-#include "cases/runner/executor.h"
-#include "cases/runner/shards/shard.h"
+#include "cases/cli/commands.h"
 
 namespace rigor {
 
 struct CommandLine {
-  std::string command;             // "list", "run", ...
-  std::vector<std::string> words;  // cases; for `list`, what to list
-  std::vector<std::string> engines;
-  std::vector<StepSize> dt;
-  std::optional<double> duration;  // s
-  std::vector<double> times;       // s; for `truth`
-  int jobs = 1;
-  int every = 1;
-  double limit = 120;  // s
-  double factor = 0;   // by which an error has to grow to be worse
-  std::string out = "out";
-  std::string suite_dir;
-  std::string adapters_dir;          // of the known deviations
-  std::vector<std::string> plugins;  // engines from outside: paths of shared libraries, and command lines
-  std::string regression;            // the engine whose recorded values `baseline` prints; empty: the baseline itself
-  bool quick = false, resume = false, json = false, verbose = false;
-  bool contacts = false;                   // of trace
-  Shard shard;                             // of run, gate and sweep: all, or a part for `rigor merge`
-  std::vector<std::string> vary, metrics;  // of a sweep: KEY=VALUES; the metrics asked for
-  std::size_t samples = 0;                 // of a sweep; 0: the full grid
-  unsigned long seed = 1;
-  std::vector<std::string> within;     // of tune: bounds, "1mm"
-  std::string file = "history.jsonl";  // of history
-  std::string page;                    // of history: where it is drawn; empty: nowhere
-  std::string keyframe;                // of import; empty: the model's own state
-  std::string format;                  // of trace and export; empty: the default
-  std::vector<std::string> arguments;  // as typed, without where to, how many at once, and which shard
-  const Executor* executor = nullptr;  // of a grid's cases and a sweep's; null: processes of this machine
-  std::string printed;                 // --help or --version: what to print instead of doing anything
-};
+  Invocation invocation;
+  std::unique_ptr<Command> command;  // null if there is only something to print
+  std::string printed;               // --help or --version: what to print instead of doing anything
 
-// Whether this process plans, judges and writes. Otherwise it works for one that does.
-inline bool leads(const CommandLine& line) { return line.executor == nullptr || line.executor->leads(); }
+  // Does what the command line says. Returns an ExitCode.
+  int run() const;
+  std::shared_ptr<const Options> options;  // of the command
+};
 
 // Throws InputError with the nearest match of an unknown word. `jobs` is the default of --jobs; 0 means one a core.
 CommandLine parse_command_line(int argc, const char* const* argv, int jobs = 0);

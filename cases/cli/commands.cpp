@@ -1,5 +1,7 @@
 #include "cases/cli/commands.h"
 
+#include <algorithm>
+
 namespace rigor {
 
 // One declaration and one row a command; each is defined in the file of its name.
@@ -22,6 +24,21 @@ CommandRow sweep_row();
 CommandRow trace_row();
 CommandRow truth_row();
 CommandRow tune_row();
+
+std::vector<OptionFact> options_of(const CommandRow& row) {
+  const std::unique_ptr<Command> command = row.make();
+  Options options(1);
+  command->declare(options);
+  std::vector<OptionFact> facts;
+  for (const Options::Row& option : options.rows()) facts.push_back(option.fact);
+  std::sort(facts.begin(), facts.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return facts;
+}
+
+bool has_option(const CommandRow& row, const std::string& name) {
+  const std::vector<OptionFact> options = options_of(row);
+  return std::any_of(options.begin(), options.end(), [&](const OptionFact& fact) { return fact.name == name; });
+}
 
 const std::vector<NamedFact>& exit_codes() {
   static const std::vector<NamedFact> table = {{"0", "good"},

@@ -6,27 +6,21 @@
 
 #include "cases/case/suite.h"
 #include "cases/cli/commands.h"
+#include "cases/cli/help.h"
 #include "cases/cli/output.h"
 #include "cases/cli/reference.h"
 #include "cases/report/json/machine.h"
-#include "cases/report/scene/scene_formats.h"
-#include "cases/report/trace/trace_formats.h"
 #include "core/base/error.h"
+#include "core/base/names_of.h"
 #include "core/base/near_match.h"
 
 namespace rigor {
 namespace {
 
-std::vector<std::string> options_of(const CommandRow& row) {
-  std::vector<std::string> options = row.options;
-  options.push_back("--help");
-  return options;
-}
-
-template <typename Rows>
-std::vector<std::string> names_of(const Rows& rows) {
+std::vector<std::string> option_names(const CommandRow& row) {
   std::vector<std::string> names;
-  for (const auto& row : rows) names.push_back(row.name);
+  for (const OptionFact& option : options_of(row)) names.push_back(option.name);
+  names.push_back("--help");
   return names;
 }
 
@@ -52,18 +46,15 @@ std::vector<std::string> engine_words(const EngineTable& engines, const std::str
 
 // What a command's plain words may be, beside files.
 std::vector<std::string> plain_words(const CommandRow& row) {
-  if (row.words == "CASE") return case_words();
-  if (row.name == "history") return {"add", "show"};
-  if (row.name == "completion") return {"bash", "man", "reference", "zsh"};
-  if (row.name == "list") return {"cases", "engines", "integrators", "metrics", "truths"};
-  return {};
+  return row.words == "CASE" ? case_words() : row.known_words;
 }
 
 // The values of --format; empty for a command without it.
 std::vector<std::string> formats_of(const CommandRow& row) {
-  const bool takes = std::find(row.options.begin(), row.options.end(), "--format") != row.options.end();
-  if (!takes) return {};
-  return row.name == "export" ? names_of(scene_formats()) : names_of(trace_formats());
+  for (const OptionFact& option : options_of(row)) {
+    if (option.name == "--format") return option.choices;
+  }
+  return {};
 }
 
 std::string bash(const EngineTable& engines) {
@@ -76,7 +67,7 @@ std::string bash(const EngineTable& engines) {
       fmt::join(case_words(), " "), fmt::join(names_of(commands()), " "));
   for (const CommandRow& row : commands()) {
     const std::string plain = row.words == "CASE" ? "$cases" : fmt::format("{}", fmt::join(plain_words(row), " "));
-    text += fmt::format("      {}) words=\"{} {}\" formats=\"{}\" ;;\n", row.name, fmt::join(options_of(row), " "),
+    text += fmt::format("      {}) words=\"{} {}\" formats=\"{}\" ;;\n", row.name, fmt::join(option_names(row), " "),
                         plain, fmt::join(formats_of(row), " "));
   }
   return text + fmt::format(
@@ -106,7 +97,7 @@ std::string zsh(const EngineTable& engines) {
     if (const auto formats = formats_of(row); !formats.empty())
       text +=
           fmt::format(" [[ $words[CURRENT-1] == --format ]] && {{ compadd -- {}; return; }};", fmt::join(formats, " "));
-    text += fmt::format(" [[ $PREFIX == -* ]] && compadd -- {}", fmt::join(options_of(row), " "));
+    text += fmt::format(" [[ $PREFIX == -* ]] && compadd -- {}", fmt::join(option_names(row), " "));
     const auto plain = plain_words(row);
     if (!plain.empty())
       text += row.words == "CASE" ? " || compadd -a cases" : fmt::format(" || compadd -- {}", fmt::join(plain, " "));
@@ -131,8 +122,7 @@ std::string manual(const EngineTable&) {
       ".SH SYNOPSIS\n.B rigor\n.I COMMAND\n[words] [options]\n.SH COMMANDS\n",
       this_machine().program_version);
   for (const CommandRow& row : commands()) {
-    const char* words[] = {"rigor", row.name.c_str(), "--help"};
-    text += fmt::format(".SS {}\n.nf\n{}.fi\n", row.name, roff(parse_command_line(3, words).printed));
+    text += fmt::format(".SS {}\n.nf\n{}.fi\n", row.name, roff(help_text(row)));
   }
   text += ".SH EXAMPLES\n";
   for (const CommandRow& row : commands()) {
@@ -154,26 +144,34 @@ struct Completion {
 const std::vector<Completion> kCompletions = {
     {"bash", bash}, {"man", manual}, {"reference", reference_text}, {"zsh", zsh}};
 
-}  // namespace
+class CompletionCommand : public Command {
+ public:
+  void declare(Options& options) override { options.add_words(words_); }
 
-static int completion_command(const CommandLine& line, const EngineTable& engines) {
-  const std::vector<std::string> names = names_of(kCompletions);
-  const std::string word = line.words.size() == 1 ? line.words.front() : "";
-  for (const Completion& kind : kCompletions) {
-    if (kind.name == word) return print(kind.text(engines)), kGood;
+  int run(const Invocation&) override {
+    const std::vector<std::string> names = names_of(kCompletions);
+    const std::string word = words_.size() == 1 ? words_.front() : "";
+    for (const Completion& kind : kCompletions) {
+      if (kind.name == word) return print(kind.text(built_in_engines())), kGood;
+    }
+    throw InputError(fmt::format("rigor completion: takes one of {}{}", listed(names), did_you_mean(word, names)));
   }
-  throw InputError(fmt::format("rigor completion: takes one of {}{}", listed(names), did_you_mean(word, names)));
-}
+
+ private:
+  std::vector<std::string> words_;
+};
+
+}  // namespace
 
 CommandRow completion_row() {
   return {"completion",
           "print completions for a shell, the manual page, or the reference in Markdown",
           "KIND",
           "bash, zsh, man or reference",
-          {},
           {{"rigor completion bash > ~/.local/share/bash-completion/completions/rigor", "for bash"},
            {"rigor completion man | man -l -", "read the manual page"}},
-          completion_command};
+          make_command<CompletionCommand>,
+          names_of(kCompletions)};
 }
 
 }  // namespace rigor

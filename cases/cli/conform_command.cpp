@@ -8,6 +8,7 @@
 #include "cases/analysis/conformance/conformance.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/vocabulary.h"
 #include "cases/report/json/mistakes_json.h"
 #include "cases/report/wording/mistakes.h"
 #include "cases/runner/process_pool.h"
@@ -102,48 +103,69 @@ bool answers(const Json& results) {
 
 }  // namespace
 
-RunName run_asked_for(const CommandLine& line, const EngineTable& engines) {
-  if (line.engines.size() > 1) throw InputError(fmt::format("rigor {}: takes one --engine", line.command));
-  if (!line.engines.empty()) return run_of_option(line.engines.front(), engines.infos());
+RunName run_asked_for(const EngineOptions& options, const std::string& command, const EngineTable& engines) {
+  if (options.engines.size() > 1) throw InputError(fmt::format("rigor {}: takes one --engine", command));
+  if (!options.engines.empty()) return run_of_option(options.engines.front(), engines.infos());
+  const std::vector<std::string>& plugins = options.outside.plugins;
   std::vector<std::string> outside;
   for (const EngineInfo& info : engines.infos()) {
     const std::string& identity = engines.identity_of(info.name);  // begins with what it was started by
-    const bool is_meant = line.plugins.size() != 1 || identity.starts_with(line.plugins.front() + " ");
+    const bool is_meant = plugins.size() != 1 || identity.starts_with(plugins.front() + " ");
     if (!identity.empty() && is_meant) outside.push_back(info.name);
   }
   if (outside.size() != 1)
-    throw InputError(fmt::format("rigor {}: which engine? Give one --plugin P, or --engine E; see rigor list engines",
-                                 line.command));
+    throw InputError(
+        fmt::format("rigor {}: which engine? Give one --plugin P, or --engine E; see rigor list engines", command));
   return parse_run_name(outside.front(), engines.infos());
 }
 
-static int conform_command(const CommandLine& line, const EngineTable& engines) {
-  const RunName run = run_asked_for(line, engines);
-  const Trial trial{engines.find(run.engine), engines.info_of(run.engine), run.settings};
-  const Json results = results_of(trial, engines, line.limit);
-  bool holds = true;
-  for (const Json& row : results) holds = holds && row.at("answer") != "broken";
-  std::optional<MistakeReport> report;
-  if (!holds && answers(results)) report = diagnosed(line, engines, run);
-  if (line.json) {
-    Json json = {{"engine", run.text}, {"version", trial.info.version}, {"conforms", holds}, {"checks", results}};
-    if (report) json["diagnosis"] = mistakes_json(*report, run.text);
-    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  } else {
-    print_table(table_of(run, results, holds) + (report ? "\n" + text_of(*report, run.text) : ""));
+namespace {
+
+class ConformCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    engine_.declare(options), jobs_.declare(options), json_.declare(options), timeout_.declare(options);
   }
-  return holds ? kGood : kGateFailed;
-}
+
+  int run(const Invocation& invocation) override {
+    const EngineTable engines = engine_.outside.table(timeout_.seconds);
+    const RunName run = run_asked_for(engine_, invocation.command, engines);
+    const Trial trial{engines.find(run.engine), engines.info_of(run.engine), run.settings};
+    const Json results = results_of(trial, engines, timeout_.seconds);
+    bool holds = true;
+    for (const Json& row : results) holds = holds && row.at("answer") != "broken";
+    std::optional<MistakeReport> report;
+    if (!holds && answers(results)) {
+      const Vocabulary vocabulary = vocabulary_of(engines.infos());
+      report = diagnosed(engines, run, probes_of_suite(vocabulary), jobs_.count, timeout_.seconds);
+    }
+    if (json_.is_on) {
+      Json json = {{"engine", run.text}, {"version", trial.info.version}, {"conforms", holds}, {"checks", results}};
+      if (report) json["diagnosis"] = mistakes_json(*report, run.text);
+      print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    } else {
+      print_table(table_of(run, results, holds) + (report ? "\n" + text_of(*report, run.text) : ""));
+    }
+    return holds ? kGood : kGateFailed;
+  }
+
+ private:
+  EngineOptions engine_;
+  JobsOption jobs_;
+  JsonOption json_;
+  TimeoutOption timeout_;
+};
+
+}  // namespace
 
 CommandRow conform_row() {
   return {"conform",
           "check an engine against the interface; exit 1 if a check fails",
           "",
           "",
-          {"--engine", "--jobs", "--json", "--plugin", "--timeout"},
           {{"rigor conform --plugin 'python3 my_engine.py'", "an engine of your own"},
            {"rigor conform --engine ode --json", "a built-in engine, as JSON"}},
-          conform_command};
+          make_command<ConformCommand>};
 }
 
 }  // namespace rigor

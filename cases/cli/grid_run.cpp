@@ -26,9 +26,6 @@
 namespace rigor {
 namespace {
 
-// Without named engines or steps, `gate` runs only cells that a gate judges.
-bool is_gate(const CommandLine& line) { return line.command == "gate"; }
-
 // A case without a gate must not look like one that passed.
 void expect_gates(const std::vector<Case>& cases) {
   std::vector<std::string> without;
@@ -53,21 +50,23 @@ std::vector<RunName> without_those_on_request(std::vector<RunName> runs) {
 
 // A line below the table that names engines which run only if they are named.
 std::string left_out_text(const GridRun& run) {
-  const std::string names = left_out_by_default(run.line, run.engines.infos());
+  const std::string names = left_out_by_default(run.asked.engines, run.engines.infos());
   return names.empty() ? "" : fmt::format("on request (--engine NAME): {}\n", names);
 }
 
-Results planned(const CommandLine& line, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
-  std::vector<Case> cases = overridden_cases(line, vocabulary_of(engines.infos()));
-  if (line.dt.empty() && !line.duration) check_known_deviations(deviations, cases, engines.infos());
-  if (line.quick) cases = quick_selection(cases, engines.infos());
-  if (is_gate(line)) expect_gates(cases);
-  if (is_gate(line) && line.duration) tell_of_duration(*line.duration);
-  const std::vector<RunName> runs = runs_asked_for(line, engines.infos());
+Results planned(const GridRequest& asked, const EngineTable& engines, const std::vector<KnownDeviation>& deviations) {
+  const Overrides overrides{asked.steps.dt, asked.duration.seconds};
+  std::vector<Case> cases = overridden_cases(asked.cases, asked.invocation, overrides, vocabulary_of(engines.infos()));
+  if (overrides.dt.empty() && !overrides.duration) check_known_deviations(deviations, cases, engines.infos());
+  if (asked.is_quick) cases = quick_selection(cases, engines.infos());
+  if (asked.is_gate) expect_gates(cases);
+  if (asked.is_gate && overrides.duration) tell_of_duration(*overrides.duration);
+  const std::vector<RunName> runs = runs_asked_for(asked.engines, engines.infos());
+  const bool names_engines = !asked.engines.engines.empty();
   // Named engines run alone.
-  const auto of_gates = line.engines.empty() ? without_those_on_request(runs_of_gates(cases, runs, engines.infos()))
-                                             : std::vector<RunName>();
-  const Scope scope{!is_gate(line), is_gate(line) && line.engines.empty() && line.dt.empty()};
+  const auto of_gates =
+      names_engines ? std::vector<RunName>() : without_those_on_request(runs_of_gates(cases, runs, engines.infos()));
+  const Scope scope{!asked.is_gate, asked.is_gate && !names_engines && overrides.dt.empty()};
   return plan_grid(cases, runs, engines, scope, of_gates);
 }
 
@@ -120,9 +119,10 @@ void tell_the_runner(const Results& grid, const std::vector<Failure>& rows) {
 }
 
 // In a run of the whole suite, each gate of a family must have a cell that it judges.
-std::vector<Failure> unmet_of_whole_suite(const CommandLine& line, const Results& grid) {
+std::vector<Failure> unmet_of_whole_suite(const GridRequest& asked, const Results& grid) {
   std::vector<Failure> rows;
-  if (!line.words.empty() || !line.engines.empty() || !line.dt.empty() || line.quick) return rows;
+  const bool is_whole = asked.cases.words.empty() && asked.engines.engines.empty() && asked.steps.dt.empty();
+  if (!is_whole || asked.is_quick) return rows;
   for (const Gate& gate : unmet_family_gates(grid))
     rows.push_back(
         {"the suite", "", "", gate.metric, "", "", "", "no cell of any case has it for this gate", gate.where});
@@ -135,19 +135,27 @@ std::string diagnose_text(const std::vector<Failure>& rows) {
   return of_run == rows.end() ? "" : diagnose_command_text(of_run->case_id, of_run->engine);
 }
 
-Detail detail_of(const CommandLine& line) { return line.verbose ? Detail::full : Detail::brief; }
+Detail detail_of(const GridRequest& asked) { return asked.is_verbose ? Detail::full : Detail::brief; }
 
 int answer_of_gate(const GridRun& run, int ending) {
   std::vector<Failure> rows = failures(run.grid);
-  const std::vector<Failure> unmet = unmet_of_whole_suite(run.line, run.grid);
+  const std::vector<Failure> unmet = unmet_of_whole_suite(run.asked, run.grid);
   rows.insert(rows.end(), unmet.begin(), unmet.end());
-  print_table(console_table(run.grid, detail_of(run.line)) + left_out_text(run) + gate_summary(run.grid) +
+  print_table(console_table(run.grid, detail_of(run.asked)) + left_out_text(run) + gate_summary(run.grid) +
               failures_text(rows, diagnose_text(rows)));
   tell_the_runner(run.grid, rows);
   return ending == kGood && !(all_gates_hold(run.grid) && unmet.empty()) ? int{kGateFailed} : ending;
 }
 
 }  // namespace
+
+void GridRequest::declare(Options& options) {
+  cases.declare(options), engines.declare(options), steps.declare(options), duration.declare(options);
+  jobs.declare(options), timeout.declare(options), out.declare(options), resume.declare(options);
+  shard.declare(options), deviations.declare(options);
+  options.add_flag("--verbose", "print every table and every reason", is_verbose);
+  if (is_gate) options.add_flag("--quick", "check only gates whose cells are fast", is_quick);
+}
 
 RunName run_of_option(const std::string& value, const std::vector<EngineInfo>& infos) {
   try {
@@ -157,10 +165,10 @@ RunName run_of_option(const std::string& value, const std::vector<EngineInfo>& i
   }
 }
 
-std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos) {
-  if (line.engines.empty()) return without_those_on_request(default_runs(infos));
+std::vector<RunName> runs_asked_for(const EngineOptions& options, const std::vector<EngineInfo>& infos) {
+  if (options.engines.empty()) return without_those_on_request(default_runs(infos));
   std::vector<RunName> runs;
-  for (const std::string& name : line.engines) {
+  for (const std::string& name : options.engines) {
     RunName run = run_of_option(name, infos);
     const auto is_it = [&](const RunName& other) { return is_same_run(other, run); };
     if (std::none_of(runs.begin(), runs.end(), is_it)) runs.push_back(std::move(run));
@@ -168,47 +176,53 @@ std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<E
   return runs;
 }
 
-std::string left_out_by_default(const CommandLine& line, const std::vector<EngineInfo>& infos) {
+std::string left_out_by_default(const EngineOptions& options, const std::vector<EngineInfo>& infos) {
   std::vector<std::string> names;
   for (const EngineInfo& info : infos) {
-    if (line.engines.empty() && is_on_request(info.name)) names.push_back(info.name);
+    if (options.engines.empty() && is_on_request(info.name)) names.push_back(info.name);
   }
   return listed(names);
 }
 
-GridRun plan_run(const CommandLine& line, const EngineTable& engines) {
-  auto deviations = read_known_deviations(line.adapters_dir, engines.infos());
-  RecordedValues recorded = read_recorded_values(line.adapters_dir, engines.infos());
-  if (line.duration) recorded = {};  // of runs of other lengths
-  Results grid = planned(line, engines, deviations);
-  return {line, engines, std::move(deviations), std::move(recorded), std::move(grid)};
+GridRun plan_run(const GridRequest& asked, const EngineTable& engines) {
+  auto deviations = read_known_deviations(asked.deviations.dir, engines.infos());
+  RecordedValues recorded = read_recorded_values(asked.deviations.dir, engines.infos());
+  if (asked.duration.seconds) recorded = {};  // of runs of other lengths
+  Results grid = planned(asked, engines, deviations);
+  return {asked, engines, std::move(deviations), std::move(recorded), std::move(grid)};
 }
 
-OutputFolder output_folder_of(const CommandLine& line) {
-  if (!leads(line)) return OutputFolder::of_helper(line.out);
+OutputFolder output_folder_of(const GridRequest& asked) {
+  if (!asked.invocation.leads()) return OutputFolder::of_helper(asked.out.dir);
   std::vector<std::string> files = report_files();
   files.push_back(kPartFile);
-  return OutputFolder(line.out, files, line.resume);
+  return OutputFolder(asked.out.dir, files, asked.resume.is_on);
 }
 
 GridOptions options_of(const GridRun& run, const OutputFolder& folder) {
-  return {run.line.jobs,      run.line.limit,     recorders_for(run.grid, folder.trajectories()),
-          !is_gate(run.line), !is_gate(run.line), folder.journals(),
-          run.line.executor};
+  const bool is_run = !run.asked.is_gate;
+  return {run.asked.jobs.count,
+          run.asked.timeout.seconds,
+          recorders_for(run.grid, folder.trajectories()),
+          is_run,
+          is_run,
+          folder.journals(),
+          run.asked.invocation.executor};
 }
 
-PartTitle title_of_part(const CommandLine& line, std::vector<std::pair<std::string, std::string>> plans,
+PartTitle title_of_part(const Invocation& invocation, const Shard& shard, const std::string& suite,
+                        const std::string& deviations, std::vector<std::pair<std::string, std::string>> plans,
                         double wall_seconds) {
   const auto whole = [](const std::string& path) {
     std::error_code error;
     return std::filesystem::absolute(path, error).lexically_normal().string();
   };
-  return {line.shard,
+  return {shard,
           this_machine().program_version,
           build_identity(),
-          line.arguments,
-          whole(line.suite_dir),
-          whole(line.adapters_dir),
+          invocation.arguments,
+          whole(suite),
+          whole(deviations),
           std::move(plans),
           wall_seconds};
 }
@@ -228,8 +242,8 @@ void judge(GridRun& run) {
       apply_known_deviations(result, run.grid, run.deviations);
     }
   };
-  check(run.line.engines.empty() && run.line.dt.empty() ? Asked::all : Asked::some);
-  if (is_gate(run.line) && !is_any_judged(run.grid)) check(Asked::all);
+  check(run.asked.engines.engines.empty() && run.asked.steps.dt.empty() ? Asked::all : Asked::some);
+  if (run.asked.is_gate && !is_any_judged(run.grid)) check(Asked::all);
 }
 
 bool write_reports(const Results& grid, OutputFolder& folder) {
@@ -251,8 +265,8 @@ int ending_of(const Results& grid, bool is_whole) {
 
 int answer(const GridRun& run, bool is_whole) {
   const int ending = ending_of(run.grid, is_whole);
-  if (is_gate(run.line)) return answer_of_gate(run, ending);
-  print_table(console_table(run.grid, detail_of(run.line)) + left_out_text(run));
+  if (run.asked.is_gate) return answer_of_gate(run, ending);
+  print_table(console_table(run.grid, detail_of(run.asked)) + left_out_text(run));
   return ending;
 }
 

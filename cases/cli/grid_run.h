@@ -1,4 +1,4 @@
-// Shared by run, gate and merge: plans the grid of a command line, judges it and writes its reports.
+// Shared by run, gate and merge: plans a grid, judges it and writes its reports.
 #pragma once
 
 #include <string>
@@ -13,29 +13,49 @@
 
 namespace rigor {
 
+// The options of run and gate.
+struct GridRequest {
+  Invocation invocation;
+  bool is_gate = false;  // without named engines or steps, `gate` runs only cells that a gate judges
+  CaseWords cases;
+  EngineOptions engines;
+  StepOption steps;
+  DurationOption duration;
+  JobsOption jobs;
+  TimeoutOption timeout;
+  OutOption out;
+  ResumeOption resume;
+  ShardOption shard;
+  DeviationsOption deviations;
+  bool is_quick = false, is_verbose = false;
+
+  void declare(Options& options);
+};
+
 struct GridRun {
-  const CommandLine& line;
+  const GridRequest& asked;
   const EngineTable& engines;
   std::vector<KnownDeviation> deviations;
   RecordedValues recorded;
   Results grid;
 };
 
-// Names the engines that run only if a command line names them. Empty if the line names engines.
-std::string left_out_by_default(const CommandLine& line, const std::vector<EngineInfo>& infos);
+// Names the engines that run only if a command line names them. Empty if the options name engines.
+std::string left_out_by_default(const EngineOptions& options, const std::vector<EngineInfo>& infos);
 
 // Returns the runs that --engine names, each once. Without --engine: the default runs.
-std::vector<RunName> runs_asked_for(const CommandLine& line, const std::vector<EngineInfo>& infos);
+std::vector<RunName> runs_asked_for(const EngineOptions& options, const std::vector<EngineInfo>& infos);
 
 // Plans the grid and runs nothing. Throws InputError.
-GridRun plan_run(const CommandLine& line, const EngineTable& engines);
-OutputFolder output_folder_of(const CommandLine& line);
+GridRun plan_run(const GridRequest& asked, const EngineTable& engines);
+OutputFolder output_folder_of(const GridRequest& asked);
 GridOptions options_of(const GridRun& run, const OutputFolder& folder);
 std::vector<std::string> report_files();
 
 void judge(GridRun& run);
-// The title of one part (--shard) of the grid.
-PartTitle title_of_part(const CommandLine& line, std::vector<std::pair<std::string, std::string>> plans,
+// The title of one part (--shard) of a grid. `deviations` is empty for a sweep.
+PartTitle title_of_part(const Invocation& invocation, const Shard& shard, const std::string& suite,
+                        const std::string& deviations, std::vector<std::pair<std::string, std::string>> plans,
                         double wall_seconds);
 
 // Puts every output that could be written into place and reports the others. Returns whether all could be written.

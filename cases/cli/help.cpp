@@ -26,15 +26,11 @@ std::string columns(const Rows& rows) {
   return text;
 }
 
-Rows option_rows(const CLI::App& command) {
+Rows option_rows(const CommandRow& row) {
   Rows rows;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_positional()) continue;
-    const std::string type = option->get_expected_max() > 0 ? " " + option->get_type_name() : "";
-    rows.emplace_back((option->get_name() == "--help" ? "-h, --help" : option->get_name()) + type,
-                      option->get_description());
-  }
-  std::stable_sort(rows.begin(), rows.end());
+  for (const OptionFact& option : options_of(row))
+    rows.emplace_back(option.name + (option.type.empty() ? "" : " " + option.type), option.meaning);
+  rows.emplace_back("-h, --help", "print this and exit");
   return rows;
 }
 
@@ -49,12 +45,12 @@ std::string help_text() {
          "\nExamples:\n  rigor run springs/fixed-spring\n  rigor list cases\n  rigor help run\n";
 }
 
-std::string help_text(const CommandRow& row, const CLI::App& command) {
+std::string help_text(const CommandRow& row) {
   std::string text = wrapped(fmt::format("rigor {}: {}", row.name, row.summary), 2) + "\n\nUsage: rigor " + row.name;
   if (!row.words.empty()) text += " [" + row.words + "...]";
   text += " [options]\n\n";
   if (!row.words.empty()) text += columns({{row.words, row.words_summary}}) + "\n";
-  text += "Options:\n" + columns(option_rows(command)) + "\nExamples:\n";
+  text += "Options:\n" + columns(option_rows(row)) + "\nExamples:\n";
   for (const Example& example : row.examples)
     text += fmt::format("  {}\n      {}\n", example.call, wrapped(example.does, 6));
   return text;

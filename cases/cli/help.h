@@ -1,7 +1,6 @@
 // Makes the text of --help from the table of commands.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "cases/cli/commands.h"
@@ -9,7 +8,7 @@
 namespace rigor {
 
 std::string help_text();
-std::string help_text(const CommandRow& row, const CLI::App& command);
+std::string help_text(const CommandRow& row);
 
 // The answer to a call without a command: commands to try first.
 std::string first_steps();

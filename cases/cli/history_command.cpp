@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::vector<std::string> kActions = {"add", "show"};
+
 std::string now() {
   const std::time_t seconds = std::time(nullptr);
   std::tm utc{};
@@ -49,17 +51,6 @@ std::string current_commit() {
   return is_good ? commit : kNone;
 }
 
-int add(const CommandLine& line) {
-  if (line.words.size() != 2)
-    throw InputError("rigor history add: takes one folder that 'rigor run' wrote, or its results.json");
-  std::error_code error;
-  const fs::path given = line.words[1], file = fs::is_directory(given, error) ? given / "results.json" : given;
-  const HistoryEntry entry = history_entry(file.string(), current_commit(), now());
-  add_to_history(line.file, entry);
-  say(fmt::format("{} cells of commit {} are added to {}", entry.cells.size(), entry.commit, line.file));
-  return kGood;
-}
-
 // Replaces the page as a whole, or leaves the old one.
 void write_page(const std::string& file, const std::string& text) {
   const std::string growing = file + ".partial";
@@ -74,34 +65,57 @@ void write_page(const std::string& file, const std::string& text) {
   throw InputError(fmt::format("--page {}: cannot be written: {}", file, why));
 }
 
-int show(const CommandLine& line) {
-  const std::vector<HistoryEntry> history = read_history(line.file);
-  const std::vector<std::string> words(line.words.begin() + 1, line.words.end());
-  if (!line.page.empty()) write_page(line.page, history_page(history, words));
-  print_table(history_table(history, words));
-  return kGood;
-}
+class HistoryCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    options.add_words(words_);
+    options.add({"--file", "FILE", "the history's file; default: history.jsonl"}, file_);
+    options.add({"--page", "FILE.html", "also draw the history as a page"}, page_);
+  }
+
+  int run(const Invocation&) override {
+    const std::string what = words_.empty() ? "" : words_.front();
+    if (what == "add") return add();
+    if (what == "show") return show();
+    throw InputError(fmt::format("rigor history: found '{}'{}; allowed: add DIR, or show [CASE or ENGINE]", what,
+                                 did_you_mean(what, kActions)));
+  }
+
+ private:
+  int add() const {
+    if (words_.size() != 2)
+      throw InputError("rigor history add: takes one folder that 'rigor run' wrote, or its results.json");
+    std::error_code error;
+    const fs::path given = words_[1], file = fs::is_directory(given, error) ? given / "results.json" : given;
+    const HistoryEntry entry = history_entry(file.string(), current_commit(), now());
+    add_to_history(file_, entry);
+    say(fmt::format("{} cells of commit {} are added to {}", entry.cells.size(), entry.commit, file_));
+    return kGood;
+  }
+
+  int show() const {
+    const std::vector<HistoryEntry> history = read_history(file_);
+    const std::vector<std::string> words(words_.begin() + 1, words_.end());
+    if (!page_.empty()) write_page(page_, history_page(history, words));
+    print_table(history_table(history, words));
+    return kGood;
+  }
+
+  std::vector<std::string> words_;
+  std::string file_ = "history.jsonl", page_;  // an empty page is not drawn
+};
 
 }  // namespace
-
-int history_command(const CommandLine& line, const EngineTable&) {
-  const std::vector<std::string> known = {"add", "show"};
-  const std::string what = line.words.empty() ? "" : line.words.front();
-  if (what == "add") return add(line);
-  if (what == "show") return show(line);
-  throw InputError(fmt::format("rigor history: found '{}'{}; allowed: add DIR, or show [CASE or ENGINE]", what,
-                               did_you_mean(what, known)));
-}
 
 CommandRow history_row() {
   return {"history",
           "add a result to a history, or show errors and costs along it",
           "ACTION",
           "add and the folder of a run; or show and parts of case and engine names",
-          {"--file", "--page"},
           {{"rigor history add out", "add the run in out/ to history.jsonl"},
            {"rigor history show springs ode --page history.html", "show some of it, as a page too"}},
-          history_command};
+          make_command<HistoryCommand>,
+          kActions};
 }
 
 }  // namespace rigor

@@ -13,6 +13,7 @@
 #include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
+#include "core/base/names_of.h"
 #include "core/base/near_match.h"
 
 namespace rigor {
@@ -20,16 +21,19 @@ namespace {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
-Rows case_rows(const CommandLine& line, const EngineTable& engines) {
+Rows case_rows(const std::string& suite, const EngineTable& engines) {
   Rows rows;
-  for (const Case& definition : select_cases({}, line.suite_dir, vocabulary_of(engines.infos())))
+  for (const Case& definition : select_cases({}, suite, vocabulary_of(engines.infos())))
     rows.emplace_back(definition.id, definition.title);
   return rows;
 }
 
 std::string option_text(const OptionInfo& option) {
-  if (option.choices.empty()) return fmt::format("{}={}..{}", option.name, option.min, option.max);
-  return fmt::format("{}={}", option.name, fmt::join(option.choices, "|"));
+  const std::string values = option.choices.empty() ? fmt::format("{}..{}", option.min, option.max)
+                                                    : fmt::format("{}", fmt::join(option.choices, "|"));
+  const std::string by_default = default_text(option);
+  return fmt::format("{}={}{}", option.name, values,
+                     by_default.empty() ? "" : fmt::format(" (default {})", by_default));
 }
 
 std::string method_text(const MethodInfo& method) {
@@ -39,7 +43,7 @@ std::string method_text(const MethodInfo& method) {
   return text;
 }
 
-Rows engine_rows(const CommandLine&, const EngineTable& engines) {
+Rows engine_rows(const std::string&, const EngineTable& engines) {
   Rows rows;
   for (const EngineInfo& engine : engines.infos()) {
     std::vector<std::string> methods;
@@ -60,7 +64,7 @@ Rows engine_rows(const CommandLine&, const EngineTable& engines) {
   return rows;
 }
 
-Rows integrator_rows(const CommandLine&, const EngineTable& engines) {
+Rows integrator_rows(const std::string&, const EngineTable& engines) {
   Rows rows;
   for (const EngineInfo& engine : engines.infos()) {
     if (!engine.is_in_house) continue;
@@ -70,7 +74,7 @@ Rows integrator_rows(const CommandLine&, const EngineTable& engines) {
   return rows;
 }
 
-Rows metric_rows(const CommandLine&, const EngineTable&) {
+Rows metric_rows(const std::string&, const EngineTable&) {
   Rows rows;
   for (const MetricRow& metric : metrics())
     rows.emplace_back(metric.name, fmt::format("[{}] {}", metric.unit, metric.summary));
@@ -79,7 +83,7 @@ Rows metric_rows(const CommandLine&, const EngineTable&) {
   return rows;
 }
 
-Rows truth_rows(const CommandLine&, const EngineTable&) {
+Rows truth_rows(const std::string&, const EngineTable&) {
   Rows rows;
   for (const TruthRow& truth : truths())
     rows.emplace_back(truth.name, fmt::format("{}; {}", truth.summary, provenance_of(truth.name)));
@@ -88,7 +92,7 @@ Rows truth_rows(const CommandLine&, const EngineTable&) {
 
 struct Kind {
   std::string name;
-  Rows (*rows)(const CommandLine& line, const EngineTable& engines);
+  Rows (*rows)(const std::string& suite, const EngineTable& engines);
 };
 const std::vector<Kind> kKinds = {{"cases", case_rows},
                                   {"engines", engine_rows},
@@ -110,38 +114,50 @@ std::string table(const Rows& rows) {
   return out;
 }
 
-}  // namespace
+class ListCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    options.add_words(words_);
+    outside_.declare(options), suite_.declare(options);
+  }
 
-static int list_command(const CommandLine& line, const EngineTable& engines) {
-  std::vector<std::string> names;
-  for (const Kind& kind : kKinds) names.push_back(kind.name);
-  for (const std::string& word : line.words) {
-    if (std::find(names.begin(), names.end(), word) == names.end()) {
-      throw InputError(fmt::format("rigor list: there is no list '{}'{}; there are: {}", word,
-                                   did_you_mean(word, names), listed(names)));
+  int run(const Invocation&) override {
+    const std::vector<std::string> names = names_of(kKinds);
+    for (const std::string& word : words_) {
+      if (std::find(names.begin(), names.end(), word) == names.end()) {
+        throw InputError(fmt::format("rigor list: there is no list '{}'{}; there are: {}", word,
+                                     did_you_mean(word, names), listed(names)));
+      }
     }
+    const EngineTable engines = outside_.table(TimeoutOption().seconds);
+    std::string text;
+    for (const Kind& kind : kKinds) {
+      const bool is_wanted = words_.empty() || std::find(words_.begin(), words_.end(), kind.name) != words_.end();
+      if (is_wanted)
+        text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", kind.name, table(kind.rows(suite_.dir, engines)));
+    }
+    print_table(text);
+    return kGood;
   }
-  std::string text;
-  for (const Kind& kind : kKinds) {
-    const bool is_wanted =
-        line.words.empty() || std::find(line.words.begin(), line.words.end(), kind.name) != line.words.end();
-    if (is_wanted)
-      text += fmt::format("{}{}:\n{}", text.empty() ? "" : "\n", kind.name, table(kind.rows(line, engines)));
-  }
-  print_table(text);
-  return kGood;
-}
+
+ private:
+  std::vector<std::string> words_;
+  PluginOption outside_;
+  SuiteOption suite_;
+};
+
+}  // namespace
 
 CommandRow list_row() {
   return {"list",
           "list cases, engines, integrators, metrics and truths",
           "KIND",
           "cases, engines, integrators, metrics or truths; default: all",
-          {"--plugin", "--suite"},
           {{"rigor list", "everything"},
            {"rigor list cases engines", "two of the lists"},
            {"rigor list engines --plugin 'python3 my_engine.py'", "with an engine of your own"}},
-          list_command};
+          make_command<ListCommand>,
+          names_of(kKinds)};
 }
 
 }  // namespace rigor

@@ -68,34 +68,42 @@ void check_name(const std::string& title) {
   if (is_bad) throw InputError("rigor new: the name is empty or holds a quote, a backslash or a control character");
 }
 
-}  // namespace
+class NewCommand : public Command {
+ public:
+  void declare(Options& options) override { options.add_words(words_); }
 
-static int new_command(const CommandLine& line, const EngineTable&) {
-  if (line.words.size() != 1) throw InputError("rigor new: takes one name, as my-case, for the file my-case.toml");
-  const std::string file = file_of(line.words.front()), title = title_of(file);
-  check_name(title);
-  // Never overwrites a file.
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) throw InputError(fmt::format("rigor new: {}: {}; give another name", file, std::strerror(errno)));
-  const std::string text = fmt::format(kCase, title);
-  const ssize_t written = write(descriptor, text.data(), text.size());
-  const int failure = errno;
-  if (close(descriptor) != 0 || written != static_cast<ssize_t>(text.size()))
-    throw std::runtime_error(fmt::format("{} was not written whole: {}", file, std::strerror(failure)));
-  const std::string next =
-      pasted({"rigor", "run", file, "--engine", "ode", "--engine", "bullet", "--engine", "core:rk4"});
-  say(fmt::format("{} is written; next: {}", file, next));
-  return kGood;
-}
+  int run(const Invocation&) override {
+    if (words_.size() != 1) throw InputError("rigor new: takes one name, as my-case, for the file my-case.toml");
+    const std::string file = file_of(words_.front()), title = title_of(file);
+    check_name(title);
+    // Never overwrites a file.
+    const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+      throw InputError(fmt::format("rigor new: {}: {}; give another name", file, std::strerror(errno)));
+    const std::string text = fmt::format(kCase, title);
+    const ssize_t written = write(descriptor, text.data(), text.size());
+    const int failure = errno;
+    if (close(descriptor) != 0 || written != static_cast<ssize_t>(text.size()))
+      throw std::runtime_error(fmt::format("{} was not written whole: {}", file, std::strerror(failure)));
+    const std::string next =
+        pasted({"rigor", "run", file, "--engine", "ode", "--engine", "bullet", "--engine", "core:rk4"});
+    say(fmt::format("{} is written; next: {}", file, next));
+    return kGood;
+  }
+
+ private:
+  std::vector<std::string> words_;
+};
+
+}  // namespace
 
 CommandRow new_row() {
   return {"new",
           "write a case file that runs, with a comment on each line",
           "NAME",
           "name of the case, as my-case",
-          {},
           {{"rigor new my-case", "write my-case.toml"}, {"rigor new cases/pendulum", "write cases/pendulum.toml"}},
-          new_command};
+          make_command<NewCommand>};
 }
 
 }  // namespace rigor

@@ -29,25 +29,36 @@ std::string why_not_shown(const std::string& file) {
   return "xdg-open found no browser";
 }
 
+class OpenCommand : public Command {
+ public:
+  void declare(Options& options) override { out_.declare(options); }
+
+  int run(const Invocation&) override {
+    std::error_code error;
+    const std::filesystem::path file =
+        std::filesystem::absolute(std::filesystem::path(out_.dir) / "report.html", error);
+    if (error || !std::filesystem::is_regular_file(file, error))
+      throw InputError(
+          fmt::format("rigor open: there is no {}; 'rigor run' writes it, and --out names its folder", file.string()));
+    const std::string why = why_not_shown(file.string());
+    if (why.empty()) return kGood;
+    say(fmt::format("{}; open this file in a browser: {}", why, file.string()));
+    return kBroken;
+  }
+
+ private:
+  OutOption out_;
+};
+
 }  // namespace
 
-static int open_command(const CommandLine& line, const EngineTable&) {
-  std::error_code error;
-  const std::filesystem::path file = std::filesystem::absolute(std::filesystem::path(line.out) / "report.html", error);
-  if (error || !std::filesystem::is_regular_file(file, error))
-    throw InputError(
-        fmt::format("rigor open: there is no {}; 'rigor run' writes it, and --out names its folder", file.string()));
-  const std::string why = why_not_shown(file.string());
-  if (why.empty()) return kGood;
-  say(fmt::format("{}; open this file in a browser: {}", why, file.string()));
-  return kBroken;
-}
-
 CommandRow open_row() {
-  return {"open",      "show the report of a run in the browser",
-          "",          "",
-          {"--out"},   {{"rigor open", "the report in out/"}, {"rigor open --out nightly", "the report in nightly/"}},
-          open_command};
+  return {"open",
+          "show the report of a run in the browser",
+          "",
+          "",
+          {{"rigor open", "the report in out/"}, {"rigor open --out nightly", "the report in nightly/"}},
+          make_command<OpenCommand>};
 }
 
 }  // namespace rigor

@@ -5,42 +5,22 @@
 #include <exception>
 #include <stdexcept>
 
-#include "adapters/plugin/plugins.h"
-#include "cases/case/suite.h"
 #include "cases/cli/command_line.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
-#include "cases/report/wording/printed_command.h"
 #include "core/base/error.h"
 #include "core/base/json_words.h"
 
 namespace rigor {
 namespace {
 
-// The built-in engines, and those from outside if the command takes them.
-EngineTable engines_for(const CommandRow& row, const CommandLine& line) {
-  EngineTable table = built_in_engines();
-  if (std::find(row.options.begin(), row.options.end(), "--plugin") == row.options.end()) return table;
-  std::vector<std::string> plugins = plugins_of_environment();
-  plugins.insert(plugins.end(), line.plugins.begin(), line.plugins.end());
-  for (auto plugin = plugins.begin(); plugin != plugins.end(); ++plugin) {
-    if (std::find(plugins.begin(), plugin, *plugin) == plugin) add_plugin(table, *plugin, line.limit);
-  }
-  return table;
-}
-
 int answer(int argc, const char* const* argv, const Executor* executor) {
   // Each of several processes is one job already.
   CommandLine line = parse_command_line(argc, argv, executor ? 1 : 0);
-  line.executor = executor;
-  for (const CommandRow& row : commands()) {
-    const bool is_shared = std::find(row.options.begin(), row.options.end(), "--shard") != row.options.end();
-    if (!leads(line) && (!line.printed.empty() || (row.name == line.command && !is_shared))) throw Dismissed();
-    if (!line.printed.empty() || row.name != line.command) continue;
-    if (!line.suite_dir.empty() && line.suite_dir != default_suite_dir()) use_suite(line.suite_dir);
-    return row.run(line, engines_for(row, line));
-  }
-  return print_table(line.printed), kGood;
+  line.invocation.executor = executor;
+  const bool is_shared = line.command && line.command->shared();
+  if (!line.invocation.leads() && !is_shared) throw Dismissed();
+  return line.command ? line.run() : (print_table(line.printed), int{kGood});
 }
 
 // Only one of several processes speaks.
@@ -73,10 +53,9 @@ int run_program(int argc, const char* const* argv, const Executor* executor) {
 
 std::string interruption_text(int argc, const char* const* argv) {
   const std::string name = argc > 1 ? argv[1] : "";
-  const auto takes_resume = [&](const CommandRow& row) {
-    return row.name == name && std::find(row.options.begin(), row.options.end(), "--resume") != row.options.end();
-  };
-  const bool can_resume = std::any_of(commands().begin(), commands().end(), takes_resume);
+  const bool can_resume = std::any_of(commands().begin(), commands().end(), [&](const CommandRow& row) {
+    return row.name == name && has_option(row, "--resume");
+  });
   return can_resume ? "interrupted; no output was changed. The same command with --resume continues the run"
                     : "interrupted; no output was changed";
 }

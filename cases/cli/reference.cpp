@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
 #include "cases/cli/commands.h"
-#include "cases/cli/options.h"
 #include "cases/metrics/metric.h"
 #include "cases/report/trace/trace_formats.h"
 #include "cases/truth/provenance.h"
@@ -53,18 +51,10 @@ std::string table_markdown(const Cells& head, const std::vector<Cells>& rows) {
 }
 
 std::vector<Cells> option_cells(const CommandRow& row) {
-  CLI::App app;
-  CommandLine line;
-  Typed typed;
-  app.set_help_flag();
-  add_options(app, row, line, typed);
   std::vector<Cells> rows;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_positional()) continue;
-    const std::string type = option->get_expected_max() > 0 ? " " + option->get_type_name() : "";
-    rows.push_back({code_markdown(option->get_name() + type), plain_markdown(option->get_description())});
-  }
-  std::sort(rows.begin(), rows.end());
+  for (const OptionFact& option : options_of(row))
+    rows.push_back(
+        {code_markdown(option.name + (option.type.empty() ? "" : " " + option.type)), plain_markdown(option.meaning)});
   return rows;
 }
 
@@ -120,8 +110,9 @@ std::string method_pages(const std::string& engine, const MethodInfo& method) {
   if (!method.twin_of.empty()) text += fmt::format("A scheme replica (twin) of {}.\n\n", method.twin_of);
   std::vector<Cells> rows;
   for (const OptionInfo& option : method.options)
-    rows.push_back({code_markdown(option.name), plain_markdown(values_of(option)), plain_markdown(option.meaning)});
-  return text + table_markdown({"Option", "Values", "Meaning"}, rows);
+    rows.push_back({code_markdown(option.name), plain_markdown(values_of(option)), plain_markdown(default_text(option)),
+                    plain_markdown(option.meaning)});
+  return text + table_markdown({"Option", "Values", "Default", "Meaning"}, rows);
 }
 
 std::string engine_pages(const EngineTable& engines) {

@@ -1,7 +1,10 @@
-// rigor run and rigor gate: run a grid, write its reports and return its exit code. Or run one shard for `rigor merge`.
+// rigor run and rigor gate: run a grid, write its reports and return its exit code. Or run one shard, or merge all
+// shards, for `rigor merge`.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
@@ -10,23 +13,26 @@
 #include "cases/cli/progress/time_left.h"
 #include "cases/runner/ensemble.h"
 #include "cases/runner/shards/part.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::size_t cells_to_run(const CaseResult& result) {
   return static_cast<std::size_t>(std::count_if(result.cells.begin(), result.cells.end(),
                                                 [](const Cell& cell) { return cell.status != Status::unsupported; }));
 }
 
-void run_with_progress(Results& grid, const EngineTable& engines, GridOptions options, const CommandLine& line) {
+void run_with_progress(Results& grid, const EngineTable& engines, GridOptions options, const GridRequest& asked) {
   const bool speaks = !options.executor || options.executor->leads();
   for (const CaseResult& result : speaks ? grid.cases : std::vector<CaseResult>()) {
     const std::string cost = cost_of_ensemble(result.definition, cells_to_run(result));
     if (!cost.empty()) say(cost);
   }
   Progress progress;
-  TimeLeft left(grid, line.jobs, measured_times(line.out));
+  TimeLeft left(grid, asked.jobs.count, measured_times(asked.out.dir));
   options.on_part = [&](std::size_t of_case, const MessageSubject& subject) {
     if (subject.part == MessageSubject::Part::cell)
       left.end_cell(of_case, subject.index, grid.cases[of_case].cells[subject.index].wall_seconds);
@@ -37,13 +43,13 @@ void run_with_progress(Results& grid, const EngineTable& engines, GridOptions op
   run_grid(grid, engines, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
 }
 
-int run_whole(const CommandLine& line, const EngineTable& engines) {
-  GridRun run = plan_run(line, engines);
-  OutputFolder folder = output_folder_of(line);
-  if (leads(line)) say(plan_sentence(run.grid, line));
+int run_whole(const GridRequest& asked, const EngineTable& engines) {
+  GridRun run = plan_run(asked, engines);
+  OutputFolder folder = output_folder_of(asked);
+  if (asked.invocation.leads()) say(plan_sentence(run.grid, asked));
   bool is_whole = false;
   try {
-    run_with_progress(run.grid, engines, options_of(run, folder), line);
+    run_with_progress(run.grid, engines, options_of(run, folder), asked);
     judge(run);
     is_whole = write_reports(run.grid, folder);
   } catch (...) {  // Interrupted, too
@@ -54,7 +60,7 @@ int run_whole(const CommandLine& line, const EngineTable& engines) {
 }
 
 // The number of cells of this shard, and their results.
-std::string summary_of(const CommandLine& line, const Results& share) {
+std::string summary_of(const GridRequest& asked, const Results& share) {
   std::map<std::string, int> counts;
   int all = 0;
   for (const CaseResult& result : share.cases) {
@@ -62,25 +68,27 @@ std::string summary_of(const CommandLine& line, const Results& share) {
       if (cell.status != Status::unsupported) ++counts[word_of(cell.status)], ++all;
     }
   }
-  std::string text = fmt::format("shard {} of {}: {} cells", line.shard.index, line.shard.count, all);
+  std::string text = fmt::format("shard {} of {}: {} cells", asked.shard.shard.index, asked.shard.shard.count, all);
   // Gates are judged with all parts. Before that a cell that passes has only run.
   for (const auto& [word, count] : counts) text += fmt::format(", {} {}", count, word == "pass" ? "ran" : word);
   return text +
          fmt::format("\nThis is one part of the result. To join and judge all {} parts: rigor merge DIR... --out DIR\n",
-                     line.shard.count);
+                     asked.shard.shard.count);
 }
 
-int run_shard(const CommandLine& line, const EngineTable& engines) {
-  GridRun run = plan_run(line, engines);
-  OutputFolder folder = output_folder_of(line);
+int run_shard(const GridRequest& asked, const EngineTable& engines) {
+  GridRun run = plan_run(asked, engines);
+  OutputFolder folder = output_folder_of(asked);
   const GridOptions options = options_of(run, folder);
-  const Results planned = share_of(run.grid, line.shard);
-  if (leads(line)) say(plan_sentence(planned, line));
+  const Results planned = share_of(run.grid, asked.shard.shard);
+  if (asked.invocation.leads()) say(plan_sentence(planned, asked));
   Results share = planned;
   try {
-    run_with_progress(share, engines, options, line);
-    folder.write(kPartFile, part_text(title_of_part(line, plans_of(run.grid, engines, options), share.wall_seconds),
-                                      planned, share, engines, options));
+    run_with_progress(share, engines, options, asked);
+    const PartTitle title =
+        title_of_part(asked.invocation, asked.shard.shard, asked.cases.suite.dir, asked.deviations.dir,
+                      plans_of(run.grid, engines, options), share.wall_seconds);
+    folder.write(kPartFile, part_text(title, planned, share, engines, options));
     std::vector<std::string> trajectories;
     for (const CaseResult& result : share.cases) {
       for (const Cell& cell : result.cells) {
@@ -92,19 +100,82 @@ int run_shard(const CommandLine& line, const EngineTable& engines) {
     folder.keep();
     throw;
   }
-  print_table(summary_of(line, share));
+  print_table(summary_of(asked, share));
   return ending_of(share, true);
 }
 
-int run_or_part(const CommandLine& line, const EngineTable& engines) {
-  return line.shard.is_all() ? run_whole(line, engines) : run_shard(line, engines);
+void check_same_plan(const GridRun& run, const PartTitle& title, const EngineTable& engines,
+                     const GridOptions& options) {
+  const auto plans = plans_of(run.grid, engines, options);
+  if (plans == title.plans) return;
+  for (std::size_t i = 0; i < std::min(plans.size(), title.plans.size()); ++i) {
+    if (plans[i] != title.plans[i])
+      throw InputError(
+          fmt::format("the case '{}' in '{}' is not what the parts were made of; merge with the cases of "
+                      "then, see --suite",
+                      plans[i].first, run.asked.cases.suite.dir));
+  }
+  throw InputError(
+      fmt::format("there are {} cases in '{}', and the parts were made of {}; merge with the cases of "
+                  "then, see --suite",
+                  plans.size(), run.asked.cases.suite.dir, title.plans.size()));
 }
 
+// The files themselves where the file system allows it.
+void gather_trajectories(const Merged& merged, const OutputFolder& folder) {
+  for (const auto& [name, part] : merged.trajectories) {
+    const fs::path from = fs::path(part) / "trajectories" / name, to = fs::path(folder.trajectories()) / name;
+    std::error_code not_linked, not_copied;
+    fs::create_hard_link(from, to, not_linked);
+    if (not_linked) fs::copy_file(from, to, fs::copy_options::overwrite_existing, not_copied);
+    if (not_copied)
+      throw InputError(fmt::format("{}: is no whole part: its trajectory '{}' cannot be read: {}", part, name,
+                                   not_copied.message()));
+  }
+}
+
+int merge_grid(const GridRequest& asked, const std::vector<Part>& parts, const EngineTable& engines) {
+  GridRun run = plan_run(asked, engines);
+  OutputFolder folder = output_folder_of(asked);
+  check_same_plan(run, parts.front().title, engines, options_of(run, folder));
+  const Merged merged = fill_in(run.grid, parts);
+  gather_trajectories(merged, folder);
+  judge(run);
+  const bool is_whole = write_reports(run.grid, folder);
+  const int ending = answer(run, is_whole);
+  for (const std::string& remark : merged.remarks) say(remark);
+  for (const std::string& missing : merged.missing) say(missing + "; this is not the whole grid");
+  return merged.missing.empty() ? ending : int{kBroken};
+}
+
+// `run` judges, and returns 0 whatever the gates say. `gate` returns 1 if one does not hold.
+class GridCommand : public SharedCommand {
+ public:
+  explicit GridCommand(bool is_gate) { asked_.is_gate = is_gate; }
+
+  void declare(Options& options) override { asked_.declare(options); }
+
+  int run(const Invocation& invocation) override {
+    asked_.invocation = invocation;
+    const EngineTable engines = asked_.engines.outside.table(asked_.timeout.seconds);
+    return asked_.shard.shard.is_all() ? run_whole(asked_, engines) : run_shard(asked_, engines);
+  }
+
+  int merge(const Invocation& invocation, const MergeFolders& folders, const std::vector<Part>& parts,
+            const EngineTable& engines) override {
+    asked_.invocation = invocation;
+    asked_.out.dir = folders.out, asked_.cases.suite.dir = folders.suite, asked_.deviations.dir = folders.deviations;
+    return merge_grid(asked_, parts, engines);
+  }
+
+ private:
+  GridRequest asked_;
+};
+
+std::unique_ptr<Command> make_run() { return std::make_unique<GridCommand>(false); }
+std::unique_ptr<Command> make_gate() { return std::make_unique<GridCommand>(true); }
+
 }  // namespace
-
-static int run_command(const CommandLine& line, const EngineTable& engines) { return run_or_part(line, engines); }
-
-static int gate_command(const CommandLine& line, const EngineTable& engines) { return run_or_part(line, engines); }
 
 CommandRow run_row() {
   return {
@@ -112,12 +183,10 @@ CommandRow run_row() {
       "simulate cases, judge the results, print a table and write reports",
       "CASE",
       kCasesOrAll,
-      {"--deviations", "--dt", "--duration", "--engine", "--jobs", "--out", "--plugin", "--resume", "--shard",
-       "--suite", "--timeout", "--verbose"},
       {{"rigor run springs/fixed-spring", "one case by every engine; the report is out/report.html"},
        {"rigor run springs --engine ode --engine core:rk4 --dt 1/60", "a family of cases, two engines, one step size"},
        {"rigor run robot.urdf my-case.toml --out robots", "files of your own"}},
-      run_command};
+      make_run};
 }
 
 CommandRow gate_row() {
@@ -125,12 +194,10 @@ CommandRow gate_row() {
           "run, and exit 1 if a gate does not hold",
           "CASE",
           kCasesOrAll,
-          {"--deviations", "--dt", "--duration", "--engine", "--jobs", "--out", "--plugin", "--quick", "--resume",
-           "--shard", "--suite", "--timeout", "--verbose"},
           {{"rigor gate --quick", "for each change: the fast gates of the whole suite"},
            {"rigor gate --engine bullet", "all gates of one engine"},
            {"rigor gate springs --plugin ./my_engine.so", "an engine of your own against one family"}},
-          gate_command};
+          make_gate};
 }
 
 }  // namespace rigor

@@ -37,36 +37,42 @@ void settle(Scene& scene) {
   }
 }
 
-}  // namespace
+class SettleCommand : public Command {
+ public:
+  void declare(Options& options) override { options.add_words(words_); }
 
-static int settle_command(const CommandLine& line, const EngineTable&) {
-  if (line.words.size() != 1)
-    throw InputError(fmt::format("rigor settle: takes one file, and found {}", line.words.size()));
-  const TomlFile file = TomlFile::read(line.words.front());
-  const TomlValue value = file.root(case_keys()).at("scene");
-  Scene scene = read_scene(value, InitialVelocities::as_given);
-  settle(scene);
-  const std::string text = with_velocities(file, value, scene);
-  // Velocities of the copies of an array cannot be written. Reading the text again finds that.
-  try {
-    const TomlFile settled = TomlFile::parse(text, line.words.front());
-    read_scene(settled.root(case_keys()).at("scene"));
-  } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}: no initial velocities that can be written settle it: {}", line.words.front(), error.what()));
+  int run(const Invocation&) override {
+    if (words_.size() != 1) throw InputError(fmt::format("rigor settle: takes one file, and found {}", words_.size()));
+    const TomlFile file = TomlFile::read(words_.front());
+    const TomlValue value = file.root(case_keys()).at("scene");
+    Scene scene = read_scene(value, InitialVelocities::as_given);
+    settle(scene);
+    const std::string text = with_velocities(file, value, scene);
+    // Velocities of the copies of an array cannot be written. Reading the text again finds that.
+    try {
+      const TomlFile settled = TomlFile::parse(text, words_.front());
+      read_scene(settled.root(case_keys()).at("scene"));
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("{}: no initial velocities that can be written settle it: {}", words_.front(), error.what()));
+    }
+    print(text);
+    return kGood;
   }
-  print(text);
-  return kGood;
-}
+
+ private:
+  std::vector<std::string> words_;
+};
+
+}  // namespace
 
 CommandRow settle_row() {
   return {"settle",
           "print a case file with the nearest initial velocities that its joints allow",
           "FILE",
           "a case file",
-          {},
           {{"rigor settle my-case.toml > settled.toml", "correct velocities that break a joint"}},
-          settle_command};
+          make_command<SettleCommand>};
 }
 
 }  // namespace rigor

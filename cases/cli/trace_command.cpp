@@ -16,6 +16,7 @@
 #include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
+#include "core/base/names_of.h"
 #include "core/engine/engine_failure.h"
 
 namespace rigor {
@@ -88,61 +89,115 @@ std::vector<double> times_of_run(const Case& definition) {
   return times;
 }
 
+std::vector<double> parse_times(const std::string& text) {
+  std::vector<double> times;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string word = text.substr(at, comma - at);
+    const bool is_zero =
+        !word.empty() && word.find_first_not_of("0.") == std::string::npos && word.find('0') != std::string::npos;
+    times.push_back(is_zero ? 0.0 : parse_step_size(word, "--times").seconds);
+    at = comma + 1;
+  }
+  return times;
+}
+
+class TraceCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    cases_.declare(options), engine_.declare(options), steps_.declare(options), duration_.declare(options);
+    timeout_.declare(options);
+    options.add({"--every", "N", "print only each N-th sample"},
+                [this](const std::string& text) { every_ = parse_count(text, "--every"); });
+    options.add_flag("--contacts", "print the contact forces of each step in place of the bodies", contacts_);
+    options.add({"--format", "F", either_of(names_of(trace_formats())) + "; default: csv", names_of(trace_formats())},
+                format_);
+  }
+
+  int run(const Invocation& invocation) override {
+    const EngineTable engines = engine_.outside.table(timeout_.seconds);
+    Case definition = the_case(cases_, invocation, engines);
+    if (engine_.engines.size() != 1)
+      throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
+    const std::vector<StepSize> steps = steps_.dt.empty() ? definition.dt : steps_.dt;
+    if (steps.size() != 1) throw InputError("rigor trace: takes exactly one --dt; " + steps_of(definition));
+    const TraceFormat& format = format_.empty() ? trace_formats().front() : find_trace_format(format_);
+    if (contacts_ && !format_.empty() && format_ != "csv")
+      throw InputError(fmt::format("rigor trace: --contacts prints CSV; --format {} has no contacts", format_));
+    override_run(definition, {steps, duration_.seconds});
+    const RunName run = run_of_option(engine_.engines.front(), engines.infos());
+    const Engine& engine = engines.find(run.engine);
+    const double dt = steps.front().seconds;
+    const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
+    if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
+    return print_from_child(run.text, timeout_.seconds, [&](const Channel& channel) {
+      try {
+        const Simulation done =
+            simulate(engine, run.settings, definition.scene, dt, definition.duration, {.has_contacts = contacts_});
+        if (contacts_ && !done.trajectory.has_contacts)
+          throw InputError(fmt::format("{}: unsupported: the engine does not report contact forces here", run.text));
+        const auto writer = contacts_ ? contacts_trace(definition.scene) : format.writer(definition.scene);
+        send_trajectory(done, definition.scene, every_, *writer, channel);
+      } catch (const EngineFailure& failure) {
+        if (failure.kind() != FailureKind::unsupported) throw;
+        throw InputError(fmt::format("{}: unsupported: {}", run.text, failure.what()));
+      }
+      engines.rest();
+    });
+  }
+
+ private:
+  CaseWords cases_;
+  EngineOptions engine_;
+  StepOption steps_;
+  DurationOption duration_;
+  TimeoutOption timeout_;
+  int every_ = 1;
+  bool contacts_ = false;
+  std::string format_;  // empty: the default
+};
+
+class TruthCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    cases_.declare(options), duration_.declare(options), timeout_.declare(options);
+    options.add({"--times", "T,T...", "instants in s; default: every coarsest step of the run"},
+                [this](const std::string& text) { times_ = parse_times(text); });
+  }
+
+  int run(const Invocation& invocation) override {
+    Case definition = the_case(cases_, invocation, built_in_engines());
+    if (definition.truth == "none")
+      throw InputError(fmt::format("{}: the case states no truth (truth.kind is \"none\")", definition.id));
+    if (duration_.seconds) definition.duration = *duration_.seconds;
+    std::vector<double> times = times_;
+    if (times.empty()) override_run(definition, {}), times = times_of_run(definition);
+    const double end = std::max(definition.duration, *std::max_element(times.begin(), times.end()));
+    say(fmt::format("the truth '{}' is {}", definition.truth, provenance_of(definition.truth)));
+    return print_from_child("the truth of " + definition.id, timeout_.seconds, [&](const Channel& channel) {
+      const auto truth = make_truth(definition.truth, definition.scene, end);
+      if (!truth->caveat().empty()) channel.send(kNote + truth->caveat());
+      send_truth(*truth, definition.scene, times, channel);
+    });
+  }
+
+ private:
+  CaseWords cases_;
+  DurationOption duration_;
+  TimeoutOption timeout_;
+  std::vector<double> times_;  // s
+};
+
 }  // namespace
 
-Case the_case(const CommandLine& line, const EngineTable& engines) {
-  if (line.words.empty())
-    throw InputError(fmt::format("rigor {}: takes one case; rigor list cases names them", line.command));
-  std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
-  if (cases.size() == 1) return cases.front();
-  throw InputError(
-      fmt::format("rigor {}: takes one case, and {} names {} of them", line.command, line.words.front(), cases.size()));
-}
-
-static int trace_command(const CommandLine& line, const EngineTable& engines) {
-  Case definition = the_case(line, engines);
-  if (line.engines.size() != 1) throw InputError("rigor trace: takes exactly one --engine; see rigor list engines");
-  const std::vector<StepSize> steps = line.dt.empty() ? definition.dt : line.dt;
-  if (steps.size() != 1) throw InputError("rigor trace: takes exactly one --dt; " + steps_of(definition));
-  const TraceFormat& format = line.format.empty() ? trace_formats().front() : find_trace_format(line.format);
-  if (line.contacts && !line.format.empty() && line.format != "csv")
-    throw InputError(fmt::format("rigor trace: --contacts prints CSV; --format {} has no contacts", line.format));
-  override_run(definition, {steps, line.duration});
-  const RunName run = run_of_option(line.engines.front(), engines.infos());
-  const Engine& engine = engines.find(run.engine);
-  const double dt = steps.front().seconds;
-  const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
-  if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
-  return print_from_child(run.text, line.limit, [&](const Channel& channel) {
-    try {
-      const Simulation done =
-          simulate(engine, run.settings, definition.scene, dt, definition.duration, {.has_contacts = line.contacts});
-      if (line.contacts && !done.trajectory.has_contacts)
-        throw InputError(fmt::format("{}: unsupported: the engine does not report contact forces here", run.text));
-      const auto writer = line.contacts ? contacts_trace(definition.scene) : format.writer(definition.scene);
-      send_trajectory(done, definition.scene, line.every, *writer, channel);
-    } catch (const EngineFailure& failure) {
-      if (failure.kind() != FailureKind::unsupported) throw;
-      throw InputError(fmt::format("{}: unsupported: {}", run.text, failure.what()));
-    }
-    engines.rest();
-  });
-}
-
-static int truth_command(const CommandLine& line, const EngineTable& engines) {
-  Case definition = the_case(line, engines);
-  if (definition.truth == "none")
-    throw InputError(fmt::format("{}: the case states no truth (truth.kind is \"none\")", definition.id));
-  if (line.duration) definition.duration = *line.duration;
-  std::vector<double> times = line.times;
-  if (times.empty()) override_run(definition, {}), times = times_of_run(definition);
-  const double end = std::max(definition.duration, *std::max_element(times.begin(), times.end()));
-  say(fmt::format("the truth '{}' is {}", definition.truth, provenance_of(definition.truth)));
-  return print_from_child("the truth of " + definition.id, line.limit, [&](const Channel& channel) {
-    const auto truth = make_truth(definition.truth, definition.scene, end);
-    if (!truth->caveat().empty()) channel.send(kNote + truth->caveat());
-    send_truth(*truth, definition.scene, times, channel);
-  });
+Case the_case(const CaseWords& cases, const Invocation& invocation, const EngineTable& engines) {
+  if (cases.words.empty())
+    throw InputError(fmt::format("rigor {}: takes one case; rigor list cases names them", invocation.command));
+  std::vector<Case> chosen = chosen_cases(cases, invocation, vocabulary_of(engines.infos()));
+  if (chosen.size() == 1) return chosen.front();
+  throw InputError(fmt::format("rigor {}: takes one case, and {} names {} of them", invocation.command,
+                               cases.words.front(), chosen.size()));
 }
 
 CommandRow trace_row() {
@@ -150,12 +205,11 @@ CommandRow trace_row() {
           "print one trajectory as CSV, JSON lines, MCAP or glTF",
           "CASE",
           "a case or a file",
-          {"--contacts", "--dt", "--duration", "--engine", "--every", "--format", "--plugin", "--suite", "--timeout"},
           {{"rigor trace springs/fixed-spring --engine ode --dt 1/240 > ode.csv", "a table of all samples"},
            {"rigor trace robot.urdf --engine core:rk4 --dt 1/240 --format gltf > robot.gltf", "an animation"},
            {"rigor trace ballistic/fast-spin --engine bullet --dt 1/60 --every 6", "each sixth sample"},
            {"rigor trace contact/lying-still --engine ode --dt 1/240 --contacts", "contact forces of each step"}},
-          trace_command};
+          make_command<TraceCommand>};
 }
 
 CommandRow truth_row() {
@@ -163,10 +217,9 @@ CommandRow truth_row() {
           "print the states of the truth and its own error as CSV",
           "CASE",
           "a case or a file",
-          {"--duration", "--suite", "--timeout", "--times"},
           {{"rigor truth springs/fixed-spring", "at every coarsest step of the run"},
            {"rigor truth springs/fixed-spring --times 1,2,5/2", "at three instants"}},
-          truth_command};
+          make_command<TruthCommand>};
 }
 
 }  // namespace rigor

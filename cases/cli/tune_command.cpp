@@ -20,19 +20,38 @@ namespace {
 
 constexpr std::size_t kSettings = 48, kSettingsBeside = 16;  // tried of the engine itself; of each of the others
 
-std::vector<Case> cases_of(const CommandLine& line, const EngineTable& engines) {
-  if (line.words.empty()) throw InputError("rigor tune: takes at least one case; see rigor list cases");
-  if (line.engines.size() != 1) throw InputError("rigor tune: takes exactly one --engine; see rigor list engines");
-  if (line.within.empty())
+struct TuneRequest {
+  Invocation invocation;
+  CaseWords cases;
+  EngineOptions engines;
+  DurationOption duration;
+  JobsOption jobs;
+  SeedOption seed;
+  TimeoutOption timeout;
+  std::vector<std::string> within;  // bounds, "1mm"
+
+  void declare(Options& options) {
+    cases.declare(options), engines.declare(options), duration.declare(options), jobs.declare(options);
+    seed.declare(options), timeout.declare(options);
+    options.add({"--within", "BOUND", "a bound: 1mm (position), 1mrad (orientation), 2% energy, or METRIC=VALUE"},
+                within);
+  }
+};
+
+std::vector<Case> cases_of(const TuneRequest& asked, const EngineTable& engines) {
+  if (asked.cases.words.empty()) throw InputError("rigor tune: takes at least one case; see rigor list cases");
+  if (asked.engines.engines.size() != 1)
+    throw InputError("rigor tune: takes exactly one --engine; see rigor list engines");
+  if (asked.within.empty())
     throw InputError("rigor tune: takes at least one --within BOUND, as 1mm, 1mrad, '2% energy' or METRIC=VALUE");
-  std::vector<Case> cases = chosen_cases(line, vocabulary_of(engines.infos()));
-  for (Case& definition : cases) override_run(definition, {{}, line.duration});
+  std::vector<Case> cases = chosen_cases(asked.cases, asked.invocation, vocabulary_of(engines.infos()));
+  for (Case& definition : cases) override_run(definition, {{}, asked.duration.seconds});
   return cases;
 }
 
-std::vector<Bound> bounds_of(const CommandLine& line) {
+std::vector<Bound> bounds_of(const TuneRequest& asked) {
   std::vector<Bound> bounds;
-  for (const std::string& text : line.within) {
+  for (const std::string& text : asked.within) {
     bounds.push_back(parse_bound(text));
     for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
       if (bounds[i].metric == bounds.back().metric)
@@ -60,36 +79,52 @@ std::string front_text(const Tuning& tuning) {
 }
 
 // The winner's run, to paste.
-std::string run_of_winner(const CommandLine& line, const TunedPoint& best) {
+std::string run_of_winner(const TuneRequest& asked, const TunedPoint& best) {
   std::vector<std::string> words = {"rigor", "run"};
-  words.insert(words.end(), line.words.begin(), line.words.end());
+  words.insert(words.end(), asked.cases.words.begin(), asked.cases.words.end());
   words.insert(words.end(), {"--engine", best.run.text, "--dt", best.dt.text});
-  if (line.duration) words.insert(words.end(), {"--duration", fmt::format("{}", *line.duration)});
+  if (asked.duration.seconds) words.insert(words.end(), {"--duration", fmt::format("{}", *asked.duration.seconds)});
   const std::vector<std::string> from = where_from(best.run.text);
   words.insert(words.end(), from.begin(), from.end());
   return pasted(words);
 }
 
 // The same tuning of another engine, to paste.
-std::string tuning_of(const CommandLine& line, const std::string& engine) {
+std::string tuning_of(const TuneRequest& asked, const std::string& engine) {
   std::vector<std::string> words = {"rigor", "tune"};
-  words.insert(words.end(), line.words.begin(), line.words.end());
+  words.insert(words.end(), asked.cases.words.begin(), asked.cases.words.end());
   words.insert(words.end(), {"--engine", engine});
-  for (const std::string& bound : line.within) words.insert(words.end(), {"--within", bound});
-  if (line.duration) words.insert(words.end(), {"--duration", fmt::format("{}", *line.duration)});
+  for (const std::string& bound : asked.within) words.insert(words.end(), {"--within", bound});
+  if (asked.duration.seconds) words.insert(words.end(), {"--duration", fmt::format("{}", *asked.duration.seconds)});
   const std::vector<std::string> from = where_from(engine);
   words.insert(words.end(), from.begin(), from.end());
   return pasted(words);
 }
 
-std::string winner_text(const CommandLine& line, const Tuning& tuning, const EngineTable& engines) {
+// The options that the run leaves to their defaults.
+std::string defaults_of(const RunName& run, const EngineTable& engines) {
+  std::string text;
+  for (const EngineInfo& engine : engines.infos()) {
+    if (engine.name != run.engine) continue;
+    for (const OptionInfo& option : method_of(engine, run.settings).options) {
+      const auto value = default_value(option, run.settings.track);
+      if (value && !run.settings.options.contains(option.name))
+        text += fmt::format("{}{}={}", text.empty() ? "" : ", ", option.name, *value);
+    }
+  }
+  return text;
+}
+
+std::string winner_text(const TuneRequest& asked, const Tuning& tuning, const EngineTable& engines) {
   const TunedPoint& best = *tuning.winner;
   std::string text = fmt::format(
       "winner: {} at {} s, {} ms of CPU a simulated second ({} to {} in 5 repeats), {:.3g} of the bound\n  {}\n",
       best.run.text, best.dt.text, milliseconds(best.cost), milliseconds(best.least), milliseconds(best.most),
-      best.error, run_of_winner(line, best));
-  const auto calls =
-      engine_calls(parse_run_name(best.run.text, engines.infos()), fmt::format("{}.0 / {}", 1, best.dt.text.substr(2)));
+      best.error, run_of_winner(asked, best));
+  const RunName run = parse_run_name(best.run.text, engines.infos());
+  const std::string defaults = defaults_of(run, engines);
+  if (!defaults.empty()) text += fmt::format("  by default: {}\n", defaults);
+  const auto calls = engine_calls(run, fmt::format("{}.0 / {}", 1, best.dt.text.substr(2)));
   if (!calls.empty())
     text += fmt::format("  the same in the engine's own calls:\n    {}\n", fmt::join(calls, "\n    "));
   if (!tuning.ties.empty()) {
@@ -99,7 +134,7 @@ std::string winner_text(const CommandLine& line, const Tuning& tuning, const Eng
   return text + "\n";
 }
 
-std::string beside_text(const CommandLine& line, const std::vector<Tuning>& others) {
+std::string beside_text(const TuneRequest& asked, const std::vector<Tuning>& others) {
   std::string text = fmt::format("the other engines, with at most {} settings each\n  {:>10} {:>12}  {:<9} {}\n",
                                  kSettingsBeside, "error", "cost [ms/s]", "dt [s]", "run");
   for (const Tuning& other : others) {
@@ -108,7 +143,7 @@ std::string beside_text(const CommandLine& line, const std::vector<Tuning>& othe
                                        other.nearest.empty() ? "nothing ran" : other.nearest);
   }
   if (!others.empty())
-    text += fmt::format("up to {} settings of one of them: {}\n", kSettings, tuning_of(line, others.front().engine));
+    text += fmt::format("up to {} settings of one of them: {}\n", kSettings, tuning_of(asked, others.front().engine));
   return text;
 }
 
@@ -120,22 +155,20 @@ Tuning tuned(const std::string& engine, const std::vector<Case>& cases, const st
   return tune(engine, cases, bounds, engines, options);
 }
 
-}  // namespace
-
-int tune_command(const CommandLine& line, const EngineTable& engines) {
-  const std::vector<Case> cases = cases_of(line, engines);
-  const std::vector<Bound> bounds = bounds_of(line);
-  const std::string asked_for = parse_run_name(line.engines.front(), engines.infos()).engine;
-  TuneOptions options{line.jobs, line.limit, line.seed, kSettings};
-  const Tuning tuning = tuned(line.engines.front(), cases, bounds, engines, options);
+int answer_of_tuning(const TuneRequest& asked, const EngineTable& engines) {
+  const std::vector<Case> cases = cases_of(asked, engines);
+  const std::vector<Bound> bounds = bounds_of(asked);
+  const std::string asked_for = parse_run_name(asked.engines.engines.front(), engines.infos()).engine;
+  TuneOptions options{asked.jobs.count, asked.timeout.seconds, asked.seed.seed, kSettings};
+  const Tuning tuning = tuned(asked.engines.engines.front(), cases, bounds, engines, options);
   std::string held;
   for (const Bound& bound : bounds)
     held += fmt::format("{}{} (|{}| up to {:g})", held.empty() ? "" : ", ", bound.text, bound.metric, bound.most);
   std::string text =
       fmt::format("within {} on {}\nerror: the largest share of a bound; cost: CPU time per simulated second\n\n", held,
-                  fmt::join(line.words, ", "));
+                  fmt::join(asked.cases.words, ", "));
   if (!tuning.front.empty()) text += front_text(tuning);
-  text += tuning.winner ? winner_text(line, tuning, engines)
+  text += tuning.winner ? winner_text(asked, tuning, engines)
                         : fmt::format("no setting of {} keeps {}{}{}\n\n", tuning.engine, held,
                                       tuning.nearest.empty() ? "" : "; ", tuning.nearest);
   for (const std::string& remark : tuning.remarks) text += remark + "\n";
@@ -146,19 +179,33 @@ int tune_command(const CommandLine& line, const EngineTable& engines) {
     if (engine.name != asked_for && !is_on_request(engine.name))
       others.push_back(tuned(engine.name, cases, bounds, engines, options));
   }
-  print_table(beside_text(line, others));
+  print_table(beside_text(asked, others));
   return tuning.winner ? kGood : kGateFailed;
 }
+
+class TuneCommand : public Command {
+ public:
+  void declare(Options& options) override { asked_.declare(options); }
+
+  int run(const Invocation& invocation) override {
+    asked_.invocation = invocation;
+    return answer_of_tuning(asked_, asked_.engines.outside.table(asked_.timeout.seconds));
+  }
+
+ private:
+  TuneRequest asked_;
+};
+
+}  // namespace
 
 CommandRow tune_row() {
   return {"tune",
           "find the cheapest setting of an engine within bounds; exit 1 if there is none",
           "CASE",
           kCases,
-          {"--duration", "--engine", "--jobs", "--plugin", "--seed", "--suite", "--timeout", "--within"},
           {{"rigor tune springs/fixed-spring --engine ode --within 1mm", "position within a millimetre"},
            {"rigor tune springs --engine bullet --within 1cm --within '2% energy'", "two bounds on a family"}},
-          tune_command};
+          make_command<TuneCommand>};
 }
 
 }  // namespace rigor

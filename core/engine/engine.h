@@ -10,6 +10,7 @@
 
 #include "core/engine/body_table.h"
 #include "core/engine/capabilities.h"
+#include "core/engine/option_info.h"
 #include "core/scene/features/features.h"
 #include "core/scene/scene.h"
 
@@ -17,18 +18,6 @@ namespace rigor {
 
 // `matched` sets the engine to the scene's physics as truly as it can; `stock` leaves every setting as it ships.
 enum class Track { matched, stock };
-
-// A key=value that a run's name may carry.
-struct OptionInfo {
-  std::string name;
-  std::string meaning;                    // with its unit
-  std::vector<std::string> choices = {};  // the words allowed; empty: a number
-  double min = 0, max = 0;                // the numbers allowed, where there are no choices
-  bool whole = false;                     // only whole numbers
-  // For an option that decides what can be expressed: the part of EngineInfo::features that each choice has. A run that
-  // does not name the option uses the first choice that expresses the scene.
-  std::map<std::string, Features> features_of_choice = {};
-};
 
 struct MethodInfo {
   std::string name;

@@ -7,19 +7,13 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/names_of.h"
 #include "core/base/near_match.h"
 
 namespace rigor {
 namespace {
 
 constexpr const char* kForm = "ENGINE[:METHOD][,key=value...][@TRACK]";
-
-template <typename Rows>
-std::vector<std::string> names_of(const Rows& rows) {
-  std::vector<std::string> names;
-  for (const auto& row : rows) names.push_back(row.name);
-  return names;
-}
 
 // The row with that name, or an error that says what there is instead.
 template <typename Rows>
@@ -31,12 +25,17 @@ const auto& find_row(const Rows& rows, const std::string& name, const std::strin
                                known.empty() ? "none" : listed(known)));
 }
 
+std::string and_default(const OptionInfo& option) {
+  const std::string text = default_text(option);
+  return text.empty() ? "" : fmt::format("; default: {}", text);
+}
+
 // The value as it is always written: "5e1" and "50" are one.
 std::string checked_value(const OptionInfo& option, const std::string& value, const std::string& run) {
   if (!option.choices.empty()) {
     if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return value;
-    throw InputError(fmt::format("'{}': {} cannot be '{}'{}; it is one of: {}", run, option.name, value,
-                                 did_you_mean(value, option.choices), listed(option.choices)));
+    throw InputError(fmt::format("'{}': {} cannot be '{}'{}; it is one of: {}{}", run, option.name, value,
+                                 did_you_mean(value, option.choices), listed(option.choices), and_default(option)));
   }
   double number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
@@ -44,8 +43,9 @@ std::string checked_value(const OptionInfo& option, const std::string& value, co
   const bool good =
       read_whole && number >= option.min && number <= option.max && (!option.whole || number == std::floor(number));
   if (!good) {
-    throw InputError(fmt::format("'{}': {} cannot be '{}'; it is a {} from {} to {}", run, option.name, value,
-                                 option.whole ? "whole number" : "number", option.min, option.max));
+    throw InputError(fmt::format("'{}': {} cannot be '{}'; it is a {} from {} to {}{}", run, option.name, value,
+                                 option.whole ? "whole number" : "number", option.min, option.max,
+                                 and_default(option)));
   }
   return fmt::format("{}", number);
 }

@@ -64,7 +64,7 @@ class Worlds {
  public:
   Json answer(const Json& ask) {
     const std::string call = ask.at("call");
-    if (call == "info") return Json::parse(kSiconosInfo);
+    if (call == "info") return Json::parse(siconos_info());
     const int number = ask.at("world");
     if (call == "load") return load(number, ask);
     if (call == "unload") return worlds_.erase(number), Json{{"ok", true}};

@@ -33,9 +33,9 @@ std::string counted(std::size_t count, const char* what) {
 
 }  // namespace
 
-Estimate estimated_seconds(const Results& planned, const CommandLine& line) {
-  const bool is_everything = line.command == "run";
-  const MeasuredTimes measured = measured_times(line.out);
+Estimate estimated_seconds(const Results& planned, const GridRequest& asked) {
+  const bool is_everything = !asked.is_gate;
+  const MeasuredTimes measured = measured_times(asked.out.dir);
   double known = 0, guessed = 0;
   for (const CaseResult& result : planned.cases) {
     guessed += seconds_of_truth(result.definition.truth);
@@ -45,8 +45,8 @@ Estimate estimated_seconds(const Results& planned, const CommandLine& line) {
       if (before != measured.end()) {
         known += before->second;
       } else {
-        guessed +=
-            std::min(predicted_seconds(result.definition, cell) * (is_everything ? kTimingAndTwin : 1), line.limit);
+        guessed += std::min(predicted_seconds(result.definition, cell) * (is_everything ? kTimingAndTwin : 1),
+                            asked.timeout.seconds);
       }
     }
     if (!is_everything) continue;
@@ -55,11 +55,11 @@ Estimate estimated_seconds(const Results& planned, const CommandLine& line) {
                       [](const StableStepResult& stable) { return stable.status != Status::unsupported; });
     guessed += predicted_search_seconds(result.definition.scene) * static_cast<double>(searches);
   }
-  return {(known / kSpread + guessed / kSpreadOfGuess) / line.jobs,
-          (known * kSpread + guessed * kSpreadOfGuess) / line.jobs};
+  return {(known / kSpread + guessed / kSpreadOfGuess) / asked.jobs.count,
+          (known * kSpread + guessed * kSpreadOfGuess) / asked.jobs.count};
 }
 
-std::string plan_sentence(const Results& planned, const CommandLine& line) {
+std::string plan_sentence(const Results& planned, const GridRequest& asked) {
   std::size_t cells = 0, unsupported = 0;
   for (const CaseResult& result : planned.cases) {
     for (const Cell& cell : result.cells) ++(is_run(cell) ? cells : unsupported);
@@ -67,8 +67,8 @@ std::string plan_sentence(const Results& planned, const CommandLine& line) {
   const std::string rest = unsupported > 0 ? fmt::format(", {} more unsupported", unsupported) : "";
   return fmt::format("{} by {}: {}{}; {} with {}; the reports will be in {}", counted(planned.cases.size(), "case"),
                      counted(planned.runs.size(), "run"), counted(cells, "cell"), rest,
-                     in_words(estimated_seconds(planned, line)), counted(static_cast<std::size_t>(line.jobs), "job"),
-                     line.out);
+                     in_words(estimated_seconds(planned, asked)),
+                     counted(static_cast<std::size_t>(asked.jobs.count), "job"), asked.out.dir);
 }
 
 }  // namespace rigor

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "adapters/engines.h"
-#include "cases/report/html/packing.h"
+#include "cases/report/json/packing.h"
 #include "cases/report/html/page_bundle.h"
 #include "cases/report/html/playback.h"
 #include "cases/report/json/json_report.h"

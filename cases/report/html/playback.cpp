@@ -12,7 +12,7 @@
 
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/report/html/motion.h"
-#include "cases/report/html/packing.h"
+#include "cases/report/json/packing.h"
 #include "cases/report/html/thinning.h"
 #include "core/dynamics/model/energy.h"
 

@@ -2,8 +2,6 @@
 #include "core/base/json.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
-#include <cmath>
-
 namespace rigor {
 namespace {
 
@@ -28,53 +26,29 @@ Json drawn_shape_json(const Shape& shape) {
   return json;
 }
 
-Json json_of_body(const Body& body) {
+// The row of a case file, with a pose for a plane too and with the shape as the page draws it.
+Json drawn_body_json(const Body& body, Json row) {
   const Quat& q = body.orientation;
-  const Mat3& m = body.inertia;
-  return {{"name", body.name},
-          {"mass", body.mass},
-          {"inertia", {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}},
-          {"position", list(body.position)},
-          {"orientation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"shape", body.shape ? drawn_shape_json(*body.shape) : Json(nullptr)},
-          {"collides", body.collides},
-          {"fixed", body.fixed}};
-}
-
-Json json_of_joint(const Joint& joint, const Scene& scene) {
-  Json json = {{"a", scene.body_name(joint.a)}, {"b", scene.body_name(joint.b)}, {"type", joint_type_name(joint)}};
-  for_each_vector(joint.type, [&](const char* key, JointVector, const Vec3& vector) { json[key] = list(vector); });
-  return json;
+  row["position"] = list(body.position);
+  row["orientation_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
+  row["shape"] = body.shape ? drawn_shape_json(*body.shape) : Json(nullptr);
+  for (const char* key : {"shapes", "velocity", "angular_velocity"}) row.erase(key);
+  return row;
 }
 
 }  // namespace
 
 Json json_of(const Scene& scene) {
-  Json json = {{"gravity", list(scene.gravity)},
+  const Json written = parse_json(scene_json(scene));
+  const auto rows = [&](const char* key) { return written.value(key, Json::array()); };
+  Json json = {{"gravity", written.at("gravity")},
                {"bodies", Json::array()},
-               {"springs", Json::array()},
-               {"joints", Json::array()},
-               {"forces", Json::array()}};
-  for (const Body& body : scene.bodies) json["bodies"].push_back(json_of_body(body));
-  for (const Spring& spring : scene.springs) {
-    json["springs"].push_back({{"a", scene.body_name(spring.a)},
-                               {"point_a", list(spring.point_a)},
-                               {"b", scene.body_name(spring.b)},
-                               {"point_b", list(spring.point_b)},
-                               {"stiffness", spring.stiffness},
-                               {"damping", spring.damping},
-                               {"rest_length", spring.rest_length}});
-  }
-  for (const Joint& joint : scene.joints) json["joints"].push_back(json_of_joint(joint, scene));
-  for (const TimedForce& force : scene.forces) {
-    json["forces"].push_back(
-        {{"body", scene.body_name(force.body)},
-         {"force", list(force.force)},
-         {"torque", list(force.torque)},
-         {"point", list(force.point)},
-         {"from", force.from},
-         {"until", std::isfinite(force.until) ? Json(force.until) : Json(nullptr)}});  // null: to the end
-  }
+               {"springs", rows("spring")},
+               {"joints", rows("joint")},
+               {"forces", rows("force")}};
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    json["bodies"].push_back(drawn_body_json(scene.bodies[i], written.at("body")[i]));
+  for (Json& force : json["forces"]) force.emplace("until", nullptr);  // null: to the end
   return json;
 }
 

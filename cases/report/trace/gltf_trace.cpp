@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "cases/report/html/packing.h"
+#include "cases/report/json/packing.h"
 #include "cases/report/trace/trace_formats.h"
 #include "core/base/json.h"
 #include "core/base/rotation_between.h"

@@ -30,7 +30,7 @@ class DormandPrince : public Stepper {
  public:
   explicit DormandPrince(const StepperParts& parts)
       : parts_(parts),
-        tolerance_(number_option(parts.settings, "tolerance", kDefaultTolerance)),
+        tolerance_(number_option(parts.settings, kToleranceOption)),
         equations_(parts.system, parts.constraints()),
         y_(parts.system.size()),
         next_(parts.system.size()),
@@ -142,12 +142,7 @@ const Integrator kDormandPrince = {
     .adaptive = true,
     .takes_joints = true,
     .holds_at_stages = true,
-    .options = {{.name = "tolerance",
-                 .meaning =
-                     fmt::format("error of an inner step, relative to 1 + the value in m, rad, m/s, rad/s; default {}",
-                                 kDefaultTolerance),
-                 .min = 1e-14,
-                 .max = 1e-2}},
+    .options = {kToleranceOption},
     .make = make_stepper<DormandPrince>,
 };
 

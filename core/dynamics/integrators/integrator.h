@@ -26,9 +26,13 @@ class Stepper {
   virtual std::string solver_warning() const { return ""; }
 };
 
-// What an adaptive method allows each of its inner steps to err by, unless its option says otherwise; see
-// MotionEquations::relative_size().
-inline constexpr double kDefaultTolerance = 1e-12;
+// The error that an adaptive method allows in each inner step; see MotionEquations::relative_size().
+inline const OptionInfo kToleranceOption{
+    .name = "tolerance",
+    .meaning = "error of an inner step, relative to 1 + the value in m, rad, m/s, rad/s",
+    .min = 1e-14,
+    .max = 1e-2,
+    .by_default = 1e-12};
 
 // What a stepper is made from. Outlives it.
 struct StepperParts {
@@ -54,7 +58,7 @@ struct Integrator {
   bool symmetric = false;           // see MethodInfo
   double leapfrog_stagger;          // in steps, see MethodInfo
   std::string default_orientation;  // "" where the method has one way only
-  bool adaptive = false;            // see MethodInfo; it then has an option "tolerance"
+  bool adaptive = false;            // see MethodInfo; it then has kToleranceOption
   bool takes_contact = true;        // false: an impact would invalidate its history
   bool takes_joints = false;
   bool holds_at_stages = false;  // each of its stages asks StepperParts::constraints(), so that they keep its order

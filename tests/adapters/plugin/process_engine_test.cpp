@@ -194,6 +194,24 @@ BOOST_AUTO_TEST_CASE(quoted_words_of_a_command_are_split_as_a_shell_does) {
   BOOST_TEST(engine_of("python3 '" + file + "'").info().name == "toy-py");
 }
 
+// Its options may state their defaults. One that no run could name is refused.
+BOOST_AUTO_TEST_CASE(an_option_states_its_default) {
+  const auto info_with = [](const std::string& option) {
+    return read_plugin_info(R"({"ok":true,"name":"mine","version":"1","precision":"double","features":[],"methods":)"
+                            R"([{"name":"euler","options":[)" +
+                                option + "]}]}",
+                            "mine");
+  };
+  const auto option_of = [&](const std::string& option) { return info_with(option).engine.methods[0].options[0]; };
+  BOOST_TEST(default_text(option_of(R"({"name":"n","min":1,"max":9,"default":4,"stock_default":2})")) == "4; stock: 2");
+  BOOST_TEST(default_text(option_of(R"({"name":"w","choices":["a","b"],"default":"b"})")) == "b");
+  BOOST_TEST(default_text(option_of(R"({"name":"n","default":"as the scene asks"})")) == "as the scene asks");
+  BOOST_TEST(default_text(option_of(R"({"name":"n"})")) == "");
+  for (const char* bad : {R"({"name":"n","min":1,"max":9,"default":10})", R"({"name":"n","whole":true,"default":1.5})",
+                          R"({"name":"w","choices":["a","b"],"default":"c"})", R"({"name":"n","default":true})"})
+    BOOST_CHECK_THROW(info_with(bad), InputError);
+}
+
 BOOST_AUTO_TEST_CASE(wrenches_give_it_what_it_does_not_declare_itself) {
   const ProcessEngine toy = engine_of(kToy);
   const Features features = toy.info().features;

@@ -9,8 +9,13 @@ using namespace rigor;
 namespace {
 
 std::vector<EngineInfo> two_engines() {
-  OptionInfo iterations{.name = "iterations", .meaning = "of the solver", .min = 1, .max = 1000, .whole = true};
-  OptionInfo orientation{.name = "orientation", .meaning = "update", .choices = {"matrix", "quaternion"}};
+  OptionInfo iterations{
+      .name = "iterations", .meaning = "of the solver", .min = 1, .max = 1000, .whole = true, .by_default = 20.0};
+  OptionInfo orientation{.name = "orientation",
+                         .meaning = "update",
+                         .choices = {"matrix", "quaternion"},
+                         .by_default = "quaternion",
+                         .as_shipped = "matrix"};
   EngineInfo core{.name = "core", .version = "1", .precision = "double"};
   core.methods = {{.name = "euler", .summary = "", .options = {orientation}}, {.name = "rk4", .summary = ""}};
   EngineInfo ode{.name = "ode", .version = "1", .precision = "double"};
@@ -62,8 +67,9 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_said_with_what_may_have_been_meant) {
       {"ode:quickstep,iteration=5", {"no option of ode:quickstep called 'iteration'", "did you mean 'iterations'"}},
       {"core:rk4,orientation=matrix", {"no option of core:rk4 called 'orientation'", "there is: none"}},
       {"core:euler,orientation=matrx",
-       {"orientation cannot be 'matrx'", "did you mean 'matrix'", "matrix, quaternion"}},
-      {"ode,iterations=0", {"iterations cannot be '0'", "whole number from 1 to 1000"}},
+       {"orientation cannot be 'matrx'", "did you mean 'matrix'", "matrix, quaternion",
+        "default: quaternion; stock: matrix"}},
+      {"ode,iterations=0", {"iterations cannot be '0'", "whole number from 1 to 1000", "default: 20"}},
       {"ode,iterations=2.5", {"iterations cannot be '2.5'"}},
       {"ode,iterations=nan", {"iterations cannot be 'nan'"}},
       {"ode,iterations", {"'iterations' has no value"}},

@@ -25,6 +25,7 @@
 #include "core/dynamics/contact/event/clearance.h"
 #include "core/dynamics/contact/event/crowded_steps.h"
 #include "core/dynamics/contact/event/event_forces.h"
+#include "core/dynamics/contact/event/event_options.h"
 #include "core/dynamics/contact/event/persistent/persistent_contact.h"
 #include "core/engine/option_values.h"
 
@@ -62,14 +63,14 @@ bool is_finite(BodyColumns state) {
 class EventStepper : public ContactStepper {
  public:
   EventStepper(const Scene& scene, const ContactParts& parts)
-      : contact_points_(scene, number_option(parts.settings, "thresholds", 1)),
+      : contact_points_(scene, number_option(parts.settings, kThresholdsOption)),
         loads_(parts.system.loads),
         persistent_contact_(parts, contact_points_),
         impacts_(parts.system, contact_points_.scales(),
                  restitution_threshold(parts.settings, contact_points_.scales()), parts.joints),
         crowded_(parts, contact_points_),
         clearance_(parts.system, contact_points_, persistent_contact_),
-        patience_(number_option(parts.settings, "patience", 1)),
+        patience_(number_option(parts.settings, kPatienceOption)),
         moving_(std::max<double>(
             1, static_cast<double>(std::count_if(parts.system.bodies.begin(), parts.system.bodies.end(),
                                                  [](const Inertia& body) { return !body.fixed; })))) {
@@ -392,21 +393,7 @@ const ContactMethod kEventContact = {
                {Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite,
                 Feature::friction_none, Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit,
                 Feature::motor_speed, Feature::joint_friction}),
-    .options = {{"restitution-threshold",
-                 "m/s, from below which nothing rebounds; default 5e-8 of the scene's speed",
-                 {},
-                 1e-15,
-                 1},
-                {"thresholds",
-                 "times the default thresholds that tell what touches, slides and rebounds; default 1",
-                 {},
-                 1e-3,
-                 1e3},
-                {"patience",
-                 "times of what it may spend on events by default; more than 1: invalid where they crowd",
-                 {},
-                 1,
-                 1e6}},
+    .options = {kRestitutionThresholdOption, kThresholdsOption, kPatienceOption},
     .make = make_contact_stepper<EventStepper>,
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/dynamics/contact/event/event_options.h"
 #include "core/dynamics/joints/islands.h"
 #include "core/engine/option_values.h"
 
@@ -31,7 +32,7 @@ void copy_velocities(BodyColumns from, MutableBodyColumns to) {
 
 // Slower bounces would be as low as roundings of a position.
 double restitution_threshold(const Settings& settings, const ContactScales& scales) {
-  return number_option(settings, "restitution-threshold",
+  return number_option(settings, kRestitutionThresholdOption,
                        kRestitutionThreshold * std::max(1.0, scales.factor) * scales.speed_unit());
 }
 

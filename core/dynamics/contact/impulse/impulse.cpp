@@ -13,9 +13,9 @@
 
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
-#include "core/dynamics/contact/impulse/rebounds/impact_search.h"
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
+#include "core/dynamics/contact/impulse/rebounds/impact_search.h"
 #include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 #include "core/dynamics/contact/impulse/step_impulses.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
@@ -243,17 +243,7 @@ const ContactMethod kImpulseContact = {
          contact_feature<Ellipsoid, Sphere>(), Feature::placed_shapes, Feature::contact_filter,
          Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none, Feature::restitution,
          Feature::joints_with_contacts, Feature::joint_limit, Feature::motor_speed, Feature::joint_friction}),
-    .options = {{.name = "substeps",
-                 .meaning = "of contact=impulse in a step; default: at least 4, and more if the step is long for the "
-                            "time in which bodies fall by their size",
-                 .min = 1,
-                 .max = 10000,
-                 .whole = true},
-                {.name = "impacts",
-                 .meaning =
-                     "law of simultaneous impacts of contact=impulse: one after another, or all that touch together "
-                     "(Moreau's law); default sequential",
-                 .choices = {"sequential", "simultaneous"}}},
+    .options = {kSubStepsOption, kImpactsOption},
     .make = make_impulse_stepper,
 };
 

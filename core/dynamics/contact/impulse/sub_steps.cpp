@@ -88,14 +88,14 @@ int rounded_up(double count) { return static_cast<int>(std::ceil(count - 1e-9));
 
 // A semi-implicit method moves by the velocity after the sub-step, the others by the mean of both.
 SubSteps::SubSteps(const Scene& scene, const ContactParts& parts)
-    : given_(static_cast<int>(number_option(parts.settings, "substeps", 0))),
+    : given_(static_cast<int>(number_option(parts.settings, kSubStepsOption, 0))),
       scales_(scales_of(scene)),
       longest_sub_step_(has_uneven_masses(scene) ? kShorterSubStep : kLongestSubStep),
       gravity_(scene.gravity.norm()),
       theta_(parts.integrator.leapfrog_stagger > 0 ? 1 : 0.5) {}
 
 bool SubSteps::takes_impacts_at_once(const Settings& settings) {
-  return word_option(settings, "impacts", "sequential") == "simultaneous";
+  return word_option(settings, kImpactsOption) == "simultaneous";
 }
 
 int SubSteps::of(double dt) const {

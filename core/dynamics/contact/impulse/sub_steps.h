@@ -6,6 +6,20 @@
 
 namespace rigor {
 
+inline const OptionInfo kSubStepsOption{
+    .name = "substeps",
+    .meaning = "sub-steps of contact=impulse in a step",
+    .min = 1,
+    .max = 10000,
+    .whole = true,
+    .by_default = DefaultRule{"at least 4, more if bodies fall far for their size in a step"}};
+inline const OptionInfo kImpactsOption{
+    .name = "impacts",
+    .meaning =
+        "law of simultaneous impacts of contact=impulse: one after another, or all that touch together (Moreau's law)",
+    .choices = {"sequential", "simultaneous"},
+    .by_default = "sequential"};
+
 // What is a whole number but for rounding is not made one more.
 int rounded_up(double count);
 

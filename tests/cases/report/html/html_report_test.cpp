@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "cases/report/html/packing.h"
+#include "cases/report/json/packing.h"
 #include "cases/report/html/playback.h"
 #include "cases/report/json/json_report.h"
 #include "cases/report/reports.h"

@@ -1,4 +1,4 @@
-#include "cases/report/html/packing.h"
+#include "cases/report/json/packing.h"
 
 #include <zlib.h>
 

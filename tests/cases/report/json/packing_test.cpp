@@ -1,4 +1,4 @@
-#include "cases/report/html/packing.h"
+#include "cases/report/json/packing.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 using namespace rigor;
 
-BOOST_AUTO_TEST_SUITE(cases_report_html_packing)
+BOOST_AUTO_TEST_SUITE(cases_report_json_packing)
 
 BOOST_AUTO_TEST_CASE(base64_writes_the_vectors_of_rfc_4648) {
   const std::pair<const char*, const char*> rows[] = {{"", ""},
