@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cases/case/case.h"
+#include "cases/import/import_options.h"
 #include "cases/runner/executor.h"
 #include "cases/runner/shards/shard.h"
 
@@ -36,7 +37,7 @@ struct CommandLine {
   std::vector<std::string> within;     // of tune: bounds, "1mm"
   std::string file = "history.jsonl";  // of history
   std::string page;                    // of history: where it is drawn; empty: nowhere
-  std::string keyframe;                // of import; empty: the model's own state
+  ImportOptions import;                // of robots' files
   std::string format;                  // of trace and export; empty: the default
   std::vector<std::string> arguments;  // as typed, without where to, how many at once, and which shard
   const Executor* executor = nullptr;  // of a grid's cases and a sweep's; null: processes of this machine

@@ -3,6 +3,7 @@
 
 #include "cases/analysis/mistakes/finder.h"
 #include "cases/cli/commands.h"
+#include "cases/cli/options.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress/progress.h"
 #include "cases/cli/vocabulary.h"
@@ -15,8 +16,9 @@ namespace rigor {
 
 MistakeReport diagnosed(const CommandLine& line, const EngineTable& engines, const RunName& run) {
   const Vocabulary vocabulary = vocabulary_of(engines.infos());
-  std::vector<ProbeScene> probes = line.words.empty() ? probes_of_suite(vocabulary)
-                                                      : probes_of(select_cases(line.words, line.suite_dir, vocabulary));
+  std::vector<ProbeScene> probes = line.words.empty()
+                                       ? probes_of_suite(vocabulary)
+                                       : probes_of(select_cases(line.words, line.suite_dir, vocabulary, line.import));
   constexpr double kMost = 10;  // s of CPU time for a run that takes milliseconds
   Progress progress("motions");
   const auto show = [&](std::size_t motions) { progress.show(motions, 0); };
@@ -40,7 +42,7 @@ CommandRow diagnose_row() {
           "name the known mistake that explains an engine's error",
           "CASE",
           "case ids, families, files or folders; default: cases that tell mistakes apart",
-          {"--engine", "--jobs", "--json", "--plugin", "--suite", "--timeout"},
+          with_import_options({"--engine", "--jobs", "--json", "--plugin", "--suite", "--timeout"}),
           {{"rigor diagnose --plugin ./my_engine.so", "an engine of your own"},
            {"rigor diagnose springs/fixed-spring --engine ode", "on one case"}},
           diagnose_command};

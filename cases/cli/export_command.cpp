@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cases/cli/commands.h"
+#include "cases/cli/options.h"
 #include "cases/cli/output.h"
 #include "cases/report/scene/scene_formats.h"
 #include "core/base/error.h"
@@ -23,7 +24,7 @@ CommandRow export_row() {
           "print a case's scene for other programs; stderr lists what was left out",
           "CASE",
           "a case or a file",
-          {"--format", "--suite"},
+          with_import_options({"--format", "--suite"}),
           {{"rigor export joints/double-pendulum --format mjcf > pendulum.xml", "for MuJoCo"},
            {"rigor export joints/double-pendulum --format sdf > pendulum.sdf", "for Gazebo"}},
           export_command};

@@ -79,13 +79,20 @@ struct Options {
                    "BOUND");
   }
 
+  // Options of robots' files; see kImportOptions.
+  void add_imports() const {
+    add_flag("--ground", line.import.ground, "put a plane under a robot's file");
+    add("--keyframe", line.import.keyframe, "start an MJCF model from this keyframe", "NAME");
+    add_flag("--lossy", line.import.lossy, "accept that the import of a robot's file loses physics");
+    add_flag("--repair-inertia", line.import.repair_inertia, "replace inertias that no body can have by the nearest");
+  }
+
   // Options of files and formats.
   void add_files() const {
     add("--factor", typed.factor, fmt::format("ignore errors that grow by less; default: {}", typed.factor), "F");
     add("--regression", line.regression, "print the values of this engine for adapters/ENGINE/regression.jsonl",
         "ENGINE");
     add_flag("--json", line.json, "print JSON");
-    add("--keyframe", line.keyframe, "start an MJCF model from this keyframe", "NAME");
     if (row.name == "export") {
       add("--format", line.format, choices_of(scene_formats()), "F");
     } else {
@@ -100,10 +107,16 @@ struct Options {
 
 }  // namespace
 
+std::vector<std::string> with_import_options(std::vector<std::string> options) {
+  options.insert(options.end(), {"--ground", "--keyframe", "--lossy", "--repair-inertia"});
+  std::sort(options.begin(), options.end());
+  return options;
+}
+
 void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Typed& typed) {
   if (!row.words.empty()) command.add_option(row.words, line.words, row.words_summary);
   const Options options{command, row, line, typed};
-  options.add_runs(), options.add_ways_to_run(), options.add_searches(), options.add_files();
+  options.add_runs(), options.add_ways_to_run(), options.add_searches(), options.add_imports(), options.add_files();
 }
 
 }  // namespace rigor

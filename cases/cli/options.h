@@ -19,6 +19,9 @@ struct Typed {
                                                     factor = fmt::format("{:g}", kDefaultFactor);
 };
 
+// The options of each command that takes robots' files.
+std::vector<std::string> with_import_options(std::vector<std::string> options);
+
 // Declares the words and options that the row takes; `line` and `typed` receive their values.
 void add_options(CLI::App& command, const CommandRow& row, CommandLine& line, Typed& typed);
 

@@ -38,6 +38,7 @@ int answer(int argc, const char* const* argv, const Executor* executor) {
     if (!leads(line) && (!line.printed.empty() || (row.name == line.command && !is_shared))) throw Dismissed();
     if (!line.printed.empty() || row.name != line.command) continue;
     if (!line.suite_dir.empty() && line.suite_dir != default_suite_dir()) use_suite(line.suite_dir);
+    use_imports(line.import);
     return row.run(line, engines_for(row, line));
   }
   return print_table(line.printed), kGood;

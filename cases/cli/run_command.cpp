@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cases/cli/grid_run.h"
+#include "cases/cli/options.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress/plan_sentence.h"
 #include "cases/cli/progress/progress.h"
@@ -112,8 +113,8 @@ CommandRow run_row() {
       "simulate cases, judge the results, print a table and write reports",
       "CASE",
       kCasesOrAll,
-      {"--deviations", "--dt", "--duration", "--engine", "--jobs", "--out", "--plugin", "--resume", "--shard",
-       "--suite", "--timeout", "--verbose"},
+      with_import_options({"--deviations", "--dt", "--duration", "--engine", "--jobs", "--out", "--plugin", "--resume",
+                           "--shard", "--suite", "--timeout", "--verbose"}),
       {{"rigor run springs/fixed-spring", "one case by every engine; the report is out/report.html"},
        {"rigor run springs --engine ode --engine core:rk4 --dt 1/60", "a family of cases, two engines, one step size"},
        {"rigor run robot.urdf my-case.toml --out robots", "files of your own"}},
@@ -125,8 +126,8 @@ CommandRow gate_row() {
           "run, and exit 1 if a gate does not hold",
           "CASE",
           kCasesOrAll,
-          {"--deviations", "--dt", "--duration", "--engine", "--jobs", "--out", "--plugin", "--quick", "--resume",
-           "--shard", "--suite", "--timeout", "--verbose"},
+          with_import_options({"--deviations", "--dt", "--duration", "--engine", "--jobs", "--out", "--plugin",
+                               "--quick", "--resume", "--shard", "--suite", "--timeout", "--verbose"}),
           {{"rigor gate --quick", "for each change: the fast gates of the whole suite"},
            {"rigor gate --engine bullet", "all gates of one engine"},
            {"rigor gate springs --plugin ./my_engine.so", "an engine of your own against one family"}},

@@ -8,6 +8,7 @@
 #include "cases/analysis/sweep/sweep.h"
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/grid_run.h"
+#include "cases/cli/options.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress/progress.h"
 #include "cases/cli/sweep_merge.h"
@@ -221,8 +222,8 @@ CommandRow sweep_row() {
           "run cases over steps, options and values of the scene; write a table and maps",
           "CASE",
           kCases,
-          {"--dt", "--duration", "--engine", "--jobs", "--metric", "--out", "--plugin", "--resume", "--sample",
-           "--seed", "--shard", "--suite", "--timeout", "--vary"},
+          with_import_options({"--dt", "--duration", "--engine", "--jobs", "--metric", "--out", "--plugin", "--resume",
+                               "--sample", "--seed", "--shard", "--suite", "--timeout", "--vary"}),
           {{"rigor sweep springs/stiff-1 --vary dt=1/1000..1/10:log:20 --engine ode", "twenty step sizes"},
            {"rigor sweep springs/stiff-1 --vary dt=1/100,1/200 --vary duration=1,2 --engine core:rk4",
             "a grid of two axes"}},

@@ -6,6 +6,7 @@
 
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"
+#include "cases/cli/options.h"
 #include "cases/cli/output.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/csv/trajectory_csv.h"
@@ -148,7 +149,8 @@ CommandRow trace_row() {
           "print one trajectory as CSV, JSON lines, MCAP or glTF",
           "CASE",
           "a case or a file",
-          {"--contacts", "--dt", "--duration", "--engine", "--every", "--format", "--plugin", "--suite", "--timeout"},
+          with_import_options({"--contacts", "--dt", "--duration", "--engine", "--every", "--format", "--plugin",
+                               "--suite", "--timeout"}),
           {{"rigor trace springs/fixed-spring --engine ode --dt 1/240 > ode.csv", "a table of all samples"},
            {"rigor trace robot.urdf --engine core:rk4 --dt 1/240 --format gltf > robot.gltf", "an animation"},
            {"rigor trace ballistic/fast-spin --engine bullet --dt 1/60 --every 6", "each sixth sample"},
@@ -161,7 +163,7 @@ CommandRow truth_row() {
           "print the states of the truth and its own error as CSV",
           "CASE",
           "a case or a file",
-          {"--duration", "--suite", "--timeout", "--times"},
+          with_import_options({"--duration", "--suite", "--timeout", "--times"}),
           {{"rigor truth springs/fixed-spring", "at every coarsest step of the run"},
            {"rigor truth springs/fixed-spring --times 1,2,5/2", "at three instants"}},
           truth_command};

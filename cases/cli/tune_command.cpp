@@ -8,6 +8,7 @@
 #include "cases/analysis/tuning/tuning.h"
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"
+#include "cases/cli/options.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress/progress.h"
 #include "cases/cli/vocabulary.h"
@@ -155,7 +156,8 @@ CommandRow tune_row() {
           "find the cheapest setting of an engine within bounds; exit 1 if there is none",
           "CASE",
           kCases,
-          {"--duration", "--engine", "--jobs", "--plugin", "--seed", "--suite", "--timeout", "--within"},
+          with_import_options(
+              {"--duration", "--engine", "--jobs", "--plugin", "--seed", "--suite", "--timeout", "--within"}),
           {{"rigor tune springs/fixed-spring --engine ode --within 1mm", "position within a millimetre"},
            {"rigor tune springs --engine bullet --within 1cm --within '2% energy'", "two bounds on a family"}},
           tune_command};

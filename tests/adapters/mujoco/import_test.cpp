@@ -97,19 +97,17 @@ const std::string kControlled = R"(<mujoco><compiler angle="radian" autolimits="
 BOOST_AUTO_TEST_CASE(a_keyframe_s_control_drives_the_scene_as_it_drives_mujoco) {
   const Folder folder;
   const std::string path = folder.write("m.xml", kControlled);
-  const Import made = import_model(path, "held");
-  for (const char* part : {"actuator 'push': its control: stays 0.4", "actuator 'servo': its control: stays 0.9",
-                           "actuator 'cut': its control: stays 0.1"})
-    BOOST_TEST(some_has(made.left_out, part), part);
-  const Scene scene = read_case_text(made.case_text, path, path, words()).scene;
-  BOOST_TEST_REQUIRE(scene.motors.size() == 1u);
+  const Import made = import_model(path, {.keyframe = "held"});
+  BOOST_TEST(losses_of(made.losses, LossKind::physical).empty());
+  const Scene scene = read_case_text(case_text_of(made), path, path, words()).scene;
+  BOOST_TEST_REQUIRE(scene.motors.size() == 3u);
   BOOST_TEST(std::abs(scene.motors[0].effort - 1.2) < 1e-15);  // gain 1 × control 0.4 × gear 3
   Own own(path);
   mj_resetDataKeyframe(own.model.get(), own.data.get(), 0);
   mj_forward(own.model.get(), own.data.get());
   check_alike("m.xml", apart_after(own, "mujoco", scene, 1));
   // The model's own state has no control, and the notice says so.
-  BOOST_TEST(some_has(import_model(path).left_out, "actuator 'push': it: its control is zero from start to end"));
+  BOOST_TEST(some_has(sentences_of(import_model(path).losses), "actuator 'push': a drive: has control 0"));
 }
 
 const std::string kBent = R"(<mujoco><compiler angle="radian" autolimits="false"/><worldbody>
@@ -126,7 +124,7 @@ const std::string kBent = R"(<mujoco><compiler angle="radian" autolimits="false"
 BOOST_AUTO_TEST_CASE(a_keyframe_is_a_state_to_start_from) {
   const Folder folder;
   const std::string path = folder.write("bent.xml", kBent);
-  const Scene scene = read_case_text(import_model(path, "bent").case_text, path, path, words()).scene;
+  const Scene scene = read_case_text(case_text_of(import_model(path, {.keyframe = "bent"})), path, path, words()).scene;
   Own own(path);
   mj_resetDataKeyframe(own.model.get(), own.data.get(), 1);
   mj_forward(own.model.get(), own.data.get());
@@ -136,8 +134,10 @@ BOOST_AUTO_TEST_CASE(a_keyframe_is_a_state_to_start_from) {
   BOOST_TEST(std::abs(joint_named(scene, "shoulder").rest + 0.4) < 1e-15);
   check_alike("bent", apart_after(own, "mujoco", without_limits(scene), 1));
   BOOST_TEST(scene_of_file(path).bodies[0].velocity.isZero(0));  // the model's own is at rest
-  BOOST_CHECK_EXCEPTION(import_model(path, "bend"), InputError, says("has no keyframe 'bend' (did you mean 'bent'?)"));
-  BOOST_CHECK_EXCEPTION(import_model(kModels + "arm.urdf", "home"), InputError, says("a file of this format has none"));
+  BOOST_CHECK_EXCEPTION(import_model(path, {.keyframe = "bend"}), InputError,
+                        says("has no keyframe 'bend' (did you mean 'bent'?)"));
+  BOOST_CHECK_EXCEPTION(import_model(kModels + "arm.urdf", {.keyframe = "home"}), InputError,
+                        says("a file of this format has none"));
 }
 
 // A scene's joints would hold the bodies as they find them, apart.
@@ -152,8 +152,8 @@ BOOST_AUTO_TEST_CASE(a_keyframe_at_which_a_loop_is_open_is_refused) {
   for (const char* equality : {R"(<connect body1="a" body2="b" anchor="0 0 -2"/>)", R"(<weld body1="a" body2="b"/>)"}) {
     const Folder folder;
     const std::string path = folder.write("loop.xml", with(equality));
-    BOOST_CHECK_NO_THROW(import_model(path, "shut"));
-    BOOST_CHECK_EXCEPTION(import_model(path, "open"), InputError, says("is open by"));
+    BOOST_CHECK_NO_THROW(import_model(path, {.keyframe = "shut"}));
+    BOOST_CHECK_EXCEPTION(import_model(path, {.keyframe = "open"}), InputError, says("is open by"));
   }
 }
 

@@ -1,0 +1,38 @@
+#include "cases/import/assembly/joints_in_series.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+bool is_bare(const LinkJoint& row) {
+  const Joint& joint = row.joint;
+  return joint.stiffness == 0 && joint.damping == 0 && !joint.has_limits() && row.friction == 0;
+}
+
+bool is_universal(const std::vector<const LinkJoint*>& chain) {
+  if (chain.size() != 2) return false;
+  const auto *first = std::get_if<HingeJoint>(&chain[0]->joint.type),
+             *second = std::get_if<HingeJoint>(&chain[1]->joint.type);
+  constexpr double kSame = 1e-12, kRight = 1e-9;  // m, rad
+  return first && second && is_bare(*chain[0]) && is_bare(*chain[1]) &&
+         (first->anchor - second->anchor).norm() <= kSame && std::abs(first->axis.dot(second->axis)) <= kRight;
+}
+
+}  // namespace
+
+JointSeries joints_in_series(const std::vector<const LinkJoint*>& chain, int a, int b) {
+  JointSeries series;
+  series.place.assign(chain.size(), -1);
+  Joint whole;
+  whole.a = a, whole.b = b, whole.name = chain.front()->joint.name;
+  if (is_universal(chain)) {
+    const auto& first = std::get<HingeJoint>(chain[0]->joint.type);
+    whole.type = UniversalJoint{first.anchor, first.axis, std::get<HingeJoint>(chain[1]->joint.type).axis};
+    series.rows.push_back(whole);
+  }
+  return series;
+}
+
+}  // namespace rigor
