@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 
@@ -27,7 +28,16 @@ constexpr std::size_t kMostMemory = std::size_t{900} << 20;  // bytes, beside th
 LinkModel read_mjcf(const XmlFile& file, const ImportOptions& options) {
   MjcfSource source = check_files_of_mjcf(file);
   source.keyframe = options.keyframe;
-  return mujoco_link_model(source);
+  try {
+    return mujoco_link_model(source);
+  } catch (const InputError& error) {  // MuJoCo numbers keyframes, and names no line of theirs
+    const std::string what = error.what(), start = file.path() + ":1: ";
+    const std::size_t key = what.find("key ");
+    const auto place = key == std::string::npos ? source.places.end()
+                                                : source.places.find(fmt::format("key {}", std::atoi(&what[key + 4])));
+    if (place == source.places.end() || !what.starts_with(start)) throw;
+    throw InputError(place->second + ": " + what.substr(start.size()));
+  }
 }
 
 template <LinkModel (*kRead)(const XmlFile&, const ImportOptions&)>

@@ -75,12 +75,14 @@ class MjcfFiles {
       }
       static const std::set<std::string> kSections = {"actuator", "equality", "tendon"};
       const std::string below = kSections.contains(element.name()) ? element.name() : section;
-      for (const XmlElement& child : element.children()) waiting.emplace_back(child, below);
+      const std::vector<XmlElement> children = element.children();
+      for (auto child = children.rbegin(); child != children.rend(); ++child) waiting.emplace_back(*child, below);
     }
   }
 
   // MuJoCo knows an element by its name and its kind: "joint/elbow", "actuator/knee".
   void keep_place(const XmlElement& element, const std::string& section) {
+    if (element.name() == "key") places_.emplace(fmt::format("key {}", keys_++), element.where());
     const auto name = element.find("name");
     if (!name) return;
     const std::string word = element.name() == "freejoint" ? "joint" : element.name();
@@ -109,7 +111,7 @@ class MjcfFiles {
   }
 
   std::string model_;
-  std::size_t size_ = 0;
+  std::size_t size_ = 0, keys_ = 0;
   std::vector<Asset> assets_;
   std::set<std::string> folders_ = {""}, included_, files_;
   std::map<std::string, std::string> places_;

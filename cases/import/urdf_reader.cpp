@@ -199,6 +199,9 @@ class UrdfReader {
     if (slides) row.joint.type = SliderJoint{along};
     if (turns) row.joint.type = HingeJoint{Vec3::Zero(), along};
     if (type == "fixed") row.joint.type = FixedJoint{};
+#if __has_include("core/scene/joints/planar_joint.h")
+    if (type == "planar") row.joint.type = PlanarJoint{Vec3::Zero(), along};
+#endif
     if (!slides && !turns) return;
     if (dynamics) {
       dynamics->check({{"damping", "friction"}, {}}, model_.left_out);
@@ -281,30 +284,40 @@ class UrdfReader {
     keep_joints();
   }
 
-  // A root is bolted down if it is called "world", or if neither it nor what fixed joints hold to it has mass.
+  // A root called "world" is bolted down, and one without mass. But a root frame that fixed joints connect with a mass
+  // is free where more than one joint moves against it: it is the base of a vehicle and not the foot of an arm.
   void place_root(std::size_t index, const std::vector<std::vector<std::size_t>>& below) {
     Link& root = model_.links[index];
     place_at(root, BodyPose());
-    root.is_static = root.name == "world" || !has_mass(index, below);
-    if (root.is_static) return;
+    const auto [has_mass, joints] = base_of(index, below);
+    root.is_static = root.name == "world" || !has_mass || (root.inertial.empty() && joints < 2);
+    if (!has_mass || root.name == "world") return;
     model_.left_out.add(
         root.where, "a base",
-        assumed("has mass and no joint to the world: it is free. A fixed joint to a link 'world' would hold it"));
+        assumed(root.is_static
+                    ? "is held by the world: its root has no mass, and carries one arm"
+                    : "has mass and no joint to the world: it is free. A fixed joint to a link 'world' would hold it"));
   }
 
-  bool has_mass(std::size_t root, const std::vector<std::vector<std::size_t>>& below) const {
+  // Of the links on fixed joints from the root on: whether any has mass, and how many joints move against them.
+  std::pair<bool, std::size_t> base_of(std::size_t root, const std::vector<std::vector<std::size_t>>& below) const {
     std::vector<std::size_t> waiting = {root};
     std::set<std::size_t> seen;
+    std::pair<bool, std::size_t> found = {false, 0};
     while (!waiting.empty()) {
       const std::size_t link = waiting.back();
       waiting.pop_back();
       if (!seen.insert(link).second) continue;
-      if (!model_.links[link].inertial.empty()) return true;
+      found.first = found.first || !model_.links[link].inertial.empty();
       for (const std::size_t k : below[link + 1]) {
-        if (types_[k] == "fixed") waiting.push_back(static_cast<std::size_t>(held_[k].child));
+        if (types_[k] == "fixed") {
+          waiting.push_back(static_cast<std::size_t>(held_[k].child));
+        } else {
+          ++found.second;
+        }
       }
     }
-    return false;
+    return found;
   }
 
   void place_at(Link& link, const BodyPose& pose) {
@@ -323,6 +336,9 @@ class UrdfReader {
 
   bool is_apart(std::size_t k) {
     if (types_[k] != "planar") return false;
+#if __has_include("core/scene/joints/planar_joint.h")
+    return false;
+#endif
     model_.left_out.add(rows_[k].where, "a planar joint", lost("no scene has this joint: the two links come apart"));
     return true;
   }

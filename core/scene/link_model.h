@@ -46,6 +46,7 @@ struct LinkJoint {
   std::string where = "";
   double friction = 0;   // N m, N: Coulomb friction on the free axis
   double armature = 0;   // kg m², kg: inertia of the rotor, added on the axis
+  bool is_driven = false;  // a motor or a coupling names it
   bool is_loop = false;  // closes a loop beside the tree: its links may touch each other
 };
 

@@ -34,7 +34,7 @@ class Assembler {
     find_members();
     for (int i = 0; i < static_cast<int>(model_.links.size()); ++i) add_link(i);
     add_joints();
-    name_what_no_scene_has();
+    add_couplings();
     add_springs();
     settle_contacts(model_, *touching_, sources_, scene_);
     validate(scene_);
@@ -166,6 +166,9 @@ class Assembler {
   }
 
   void add_joints() {
+    for (const Motor& motor : model_.motors) model_.joints[motor.joint].is_driven = true;
+    for (const LinkCoupling& row : model_.couplings)
+      model_.joints[row.joint].is_driven = model_.joints[row.to].is_driven = true;
     place_.assign(model_.joints.size(), -1);
     for (std::size_t k = 0; k < model_.joints.size(); ++k) {
       const LinkJoint& row = model_.joints[k];
@@ -198,19 +201,35 @@ class Assembler {
     });
     if (const auto fault = fault_of(joint, scene_))
       throw InputError(fmt::format("{}: {}{}{}", row.where, fault->key, fault->key.empty() ? "" : ": ", fault->what));
+#ifdef RIGOR_HAS_COMPOUND
+    joint.armature = row.armature;
+#endif
     place_[k] = static_cast<int>(scene_.joints.size());
     scene_.joints.push_back(joint);
     add_friction(k);
   }
 
-  // A scene has neither rotors nor couplings.
-  void name_what_no_scene_has() {
+#ifdef RIGOR_HAS_COMPOUND
+  void add_couplings() {
+    for (const LinkCoupling& row : model_.couplings) {
+      if (place_[row.joint] < 0 || place_[row.to] < 0) {
+        model_.left_out.add(row.where, "a coupling", lost("one of its joints has no axis of its own in the scene"));
+        continue;
+      }
+      Coupling coupling;  // both count from the start, where take_to_start() has closed it
+      coupling.joint = place_[row.joint], coupling.to = place_[row.to], coupling.ratio = row.ratio;
+      scene_.couplings.push_back(coupling);
+    }
+  }
+#else
+  void add_couplings() {
     for (const LinkJoint& row : model_.joints) {
       if (row.armature != 0) model_.left_out.add(row.where, "armature", lost("is the inertia of a rotor"));
     }
     for (const LinkCoupling& row : model_.couplings)
       model_.left_out.add(row.where, "a coupling of two joints", lost("each joint moves by itself"));
   }
+#endif
 
   void add_friction(int k) {
     if (model_.joints[k].friction == 0) return;

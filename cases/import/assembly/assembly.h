@@ -1,5 +1,5 @@
-// Makes a scene of links, joints and shapes. Links on fixed joints become one body with all their masses and shapes.
-// Its origin is its centre of mass. It has the axes of its shape if that is its only one and centred, else those of the
+// Makes a scene of links, joints and shapes. A link becomes one body with all its shapes. Its origin is its centre of
+// mass. It has the axes of its shape if that is its only one and centred, else those of the
 // link. Each shape of a link that the world holds becomes a fixed body.
 #pragma once
 

@@ -88,10 +88,30 @@ void choose_start(LinkJoint& row, bool has_state, LeftOut& left_out) {
   row.start = within;
 }
 
+// A joint that follows another one starts where that puts it. Chains of couplings need a pass for each.
+void close_couplings(LinkModel& model) {
+  bool changes = true;
+  for (std::size_t pass = 0; changes && pass <= model.couplings.size(); ++pass) {
+    changes = false;
+    for (const LinkCoupling& row : model.couplings) {
+      LinkJoint& joint = model.joints[row.joint];
+      const double start = row.ratio * model.joints[row.to].start + row.offset;
+      if (start == joint.start) continue;
+      if (pass == model.couplings.size())
+        throw InputError(fmt::format("{}: its couplings contradict each other", row.where));
+      if (start < joint.joint.lower || start > joint.joint.upper)
+        throw InputError(fmt::format("{}: starts its joint at {:g}, beyond the limits {:g} and {:g}", row.where, start,
+                                     joint.joint.lower, joint.joint.upper));
+      joint.start = start, changes = true;
+    }
+  }
+}
+
 }  // namespace
 
 void take_to_start(LinkModel& model) {
   for (LinkJoint& row : model.joints) choose_start(row, model.has_state, model.left_out);
+  close_couplings(model);
   const bool at_zero =
       std::all_of(model.joints.begin(), model.joints.end(), [](const LinkJoint& row) { return row.start == 0; });
   if (at_zero) return;

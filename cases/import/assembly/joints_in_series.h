@@ -5,6 +5,10 @@
 
 #include "core/scene/link_model.h"
 
+#if __has_include("core/scene/joints/compound_joint.h")
+#define RIGOR_HAS_COMPOUND  // and armatures and couplings
+#endif
+
 namespace rigor {
 
 struct JointSeries {

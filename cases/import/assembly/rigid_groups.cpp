@@ -178,25 +178,38 @@ LinkInertial sum_of(const std::vector<LinkInertial>& parts) {
 RigidGroups rigid_groups(LinkModel& model) {
   hold_by_world(model);
   const int count = static_cast<int>(model.links.size());
-  Sets sets(model.links.size());
   const auto moves = [&](int link) { return link != kWorld && !model.links[link].is_static; };
+  // No mass, or a point's: no body by itself.
+  const auto is_part = [&](int link) {
+    const auto& inertial = model.links[link].inertial;
+    return moves(link) && (inertial.empty() || inertial.front().inertia.isZero(0));
+  };
+  Sets sets(model.links.size());
   for (const LinkJoint& row : model.joints) {
-    if (is_rigid(row) && moves(row.joint.a) && moves(row.joint.b)) sets.join(row.joint.a, row.joint.b);
+    const int a = row.joint.a, b = row.joint.b;
+    if (is_rigid(row) && moves(a) && moves(b) && is_part(a) && is_part(b)) sets.join(a, b);
   }
-  std::vector<int> first(model.links.size(), -1);  // by set: its first link with mass
-  std::vector<std::vector<LinkInertial>> parts(model.links.size());
-  for (int i = 0; i < count; ++i) {
-    if (!moves(i) || model.links[i].inertial.empty()) continue;
-    int& of = first[sets.find(i)];
-    if (of < 0) of = i;
-    parts[of].push_back(model.links[i].inertial.front());
+  std::vector<int> carrier(model.links.size(), -1);  // by set of parts: the link whose body it belongs to
+  for (const LinkJoint& row : model.joints) {
+    for (const auto& [part, whole] : {std::pair{row.joint.a, row.joint.b}, {row.joint.b, row.joint.a}}) {
+      if (!is_rigid(row) || !moves(part) || !moves(whole) || !is_part(part) || is_part(whole)) continue;
+      int& of = carrier[sets.find(part)];
+      if (of < 0) of = whole;
+    }
+  }
+  for (int i = 0; i < count; ++i) {  // points alone, which may be a body together
+    const bool is_point = moves(i) && is_part(i) && !model.links[i].inertial.empty();
+    if (is_point && carrier[sets.find(i)] < 0) carrier[sets.find(i)] = i;
   }
   RigidGroups groups;
   groups.inertial.resize(model.links.size());
+  std::vector<std::vector<LinkInertial>> parts(model.links.size());
   for (int i = 0; i < count; ++i) {
-    const int set = sets.find(i);
-    groups.set.push_back(set);
-    groups.body.push_back(!moves(i) ? kWorld : first[set] >= 0 ? first[set] : set);
+    const int set = sets.find(i), of = !moves(i) ? kWorld : !is_part(i) ? i : carrier[set] >= 0 ? carrier[set] : set;
+    groups.set.push_back(set), groups.body.push_back(of);
+    if (moves(i) && !model.links[i].inertial.empty()) parts[of].push_back(model.links[i].inertial.front());
+  }
+  for (int i = 0; i < count; ++i) {
     if (!parts[i].empty()) groups.inertial[i] = sum_of(parts[i]);
   }
   Massless(model, groups).settle();

@@ -1,4 +1,5 @@
-// Finds links that move as one: links that the world holds, and links on fixed joints. Their masses add up.
+// Finds links that move as one: links that the world holds, and links without inertia on a fixed joint. The masses of
+// points add up with that of the link that carries them.
 #pragma once
 
 #include "core/scene/link_model.h"
@@ -9,7 +10,7 @@ struct RigidGroups {
   static constexpr int kNone = -2;     // of a link that is left out
   static constexpr int kBetween = -3;  // of a link without mass between two joints, which become one joint
   std::vector<int> body;               // by link: the first link with mass that it moves with, kWorld, or one of these
-  std::vector<int> set;                // by link: equal for links that fixed joints connect
+  std::vector<int> set;                // by link: equal for links without inertia that fixed joints connect
   std::vector<LinkInertial> inertial;  // by link: of the whole group, at the link that `body` names
 };
 

@@ -118,11 +118,17 @@ class PairLaws {
     return {*found, are_alike && !some_are_apart};
   }
 
-  // Of the pairs that touch; else of no pair.
+  // Of the pairs that touch; without any, of shapes against their like.
   ContactLaw most_frequent(const std::vector<ContactPair>& rows) const {
     std::map<std::pair<double, double>, int> count;
     for (const ContactPair& row : rows) {
       if (row.law.collides) ++count[{row.law.restitution, row.law.friction}];
+    }
+    for (const ContactSource& source : count.empty() ? sources_ : std::vector<ContactSource>()) {
+      for (const ContactSource::Part& part : source.parts) {
+        const ContactLaw law = law_of(model_, *part.shape, *part.shape);
+        ++count[{law.restitution, law.friction}];
+      }
     }
     const auto most =
         std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
