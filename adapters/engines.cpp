@@ -1,4 +1,6 @@
 #include "adapters/engines.h"
+#include "adapters/mjcf/mjcf_import.h"
+#include "adapters/mjcf/mujoco3_reader.h"
 
 #include <fmt/format.h>
 
@@ -76,8 +78,16 @@ const EngineRow& row_for_mjcf(const std::string& does) {
 
 }  // namespace
 
-LinkModel mujoco_link_model(const std::string& path, const std::string& keyframe) {
-  return row_for_mjcf(path + ":1: MJCF is read by").read_model(path, keyframe);
+LinkModel mujoco_link_model(const MjcfSource& source) {
+  if (!mujoco3_folder().empty()) return links_of_mjcf(source, read_with_mujoco3(source));
+  const EngineRow& row = row_for_mjcf(source.path + ":1: MJCF is read by");
+  try {
+    return links_of_mjcf(source, row.read_model(source));
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    if (what.find("MuJoCo refuses") == std::string::npos) throw;
+    throw InputError(what + ". A newer MuJoCo may read it: npm install @mujoco/mujoco, and RIGOR_MUJOCO3=that folder");
+  }
 }
 
 std::string mjcf_of(const Scene& scene, LeftOut& left_out) {

@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "adapters/mjcf/compiled_mjcf.h"
 #include "core/scene/link_model.h"
 
 namespace rigor {
 
-// An MJCF file, as MuJoCo compiles it; in the state of the keyframe of this name, or, without one, in the model's own.
-// Throws InputError with MuJoCo's words, or with the package to install where the program was built without it.
-LinkModel mujoco_link_model(const std::string& path, const std::string& keyframe);
+// An MJCF file, as MuJoCo compiles it: the MuJoCo of today, where RIGOR_MUJOCO3 names it, else the one that this
+// program was built with. Throws InputError with MuJoCo's words, and says which other MuJoCo would read the file.
+LinkModel mujoco_link_model(const MjcfSource& source);
 
 // A scene as MJCF; says what that cannot say. Throws InputError likewise.
 std::string mjcf_of(const Scene& scene, LeftOut& left_out);

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "adapters/mjcf/compiled_mjcf.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/engine/engine.h"
-#include "core/scene/link_model.h"
+#include "core/scene/left_out.h"
 
 namespace rigor {
 
@@ -18,7 +19,7 @@ struct EngineRow {
   // See engine_calls() in adapters/engines.h; null for none.
   std::vector<std::string> (*calls)(const Settings& settings, const std::string& dt) = nullptr;
   // The engine's own format of models, see adapters/models.h; null for none.
-  LinkModel (*read_model)(const std::string& path, const std::string& keyframe) = nullptr;
+  CompiledMjcf (*read_model)(const MjcfSource& source) = nullptr;
   std::string (*write_model)(const Scene& scene, LeftOut& left_out) = nullptr;
 };
 

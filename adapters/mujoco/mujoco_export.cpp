@@ -45,7 +45,7 @@ class Exporter {
   void add(fmt::format_string<Values...> format, Values&&... values) {
     fmt::format_to(std::back_inserter(out_), format, std::forward<Values>(values)...);
   }
-  void leave_out(const std::string& of, const std::string& why) { left_out_.add(of, "it", why); }
+  void leave_out(const std::string& of, const std::string& why) { left_out_.add(of, "it", lost(why)); }
 
   std::string body_of_file() {
     add("<mujoco>\n  <compiler angle=\"radian\" balanceinertia=\"false\" autolimits=\"false\"/>\n");

@@ -1,15 +1,11 @@
-// Converts a model that MuJoCo has compiled to links, joints and shapes. It reads the compiled model with all its
-// digits, not the text.
+// Reads MJCF by MuJoCo's own parser.
 #pragma once
 
-#include <string>
-
-#include "core/scene/link_model.h"
+#include "adapters/mjcf/compiled_mjcf.h"
 
 namespace rigor {
 
-// An MJCF file, by MuJoCo's own parser, in the state of the keyframe of this name; "": in the model's own. The caller
-// has seen to it that the file names no other that may not be read.
-LinkModel read_with_mujoco(const std::string& path, const std::string& keyframe);
+// The caller has seen to it that the file names no other that may not be read. Throws InputError with MuJoCo's words.
+CompiledMjcf read_with_mujoco(const MjcfSource& source);
 
 }  // namespace rigor

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/scene/left_out.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
@@ -69,7 +70,8 @@ struct Case {
   std::string truth = "none";  // a row of truths.cpp, or "none"
   std::string truth_where;     // "file:line:column" of truth.kind
   std::vector<Gate> gates;
-  std::string text;  // the file itself
+  std::string text;          // the file itself; of a robot, the case file that the import makes
+  std::vector<Loss> losses;  // of the import of a robot's file
 };
 
 // Reads a duration or step size in seconds, "0.01" or "1/30". Throws InputError unless positive and finite and, for a

@@ -159,6 +159,19 @@ class Suite {
   std::vector<std::string> ids_;
 };
 
+Case case_of_model(const std::string& path, const std::string& id, const ImportOptions& options) {
+  Import made = import_model(path, options);
+  refuse_losses(made, path, options);
+  Case out;
+  out.id = id, out.title = made.title, out.source = made.source;
+  out.text = case_text_of(made);
+  out.duration = kModelDuration;
+  for (const char* dt : kModelSteps) out.dt.push_back(parse_step_size(dt, "dt"));
+  out.truth = truth_of_model(made.scene), out.truth_where = path + ":1:1";
+  out.scene = std::move(made.scene), out.losses = std::move(made.losses);
+  return out;
+}
+
 std::vector<Found> find_on_disk(const std::string& word, const Suite& suite) {
   std::error_code error;
   const fs::file_status status = fs::status(word, error);
@@ -196,7 +209,7 @@ std::vector<Found> find_cases(const std::string& word, const Suite& suite) {
 std::vector<std::string> suite_ids(const std::string& suite_dir) { return Suite(suite_dir).ids(); }
 
 std::vector<Case> select_cases(const std::vector<std::string>& words, const std::string& suite_dir,
-                               const Vocabulary& vocabulary) {
+                               const Vocabulary& vocabulary, const ImportOptions& options) {
   const Suite suite(suite_dir);
   std::vector<Found> selected;
   for (const std::string& id : suite.ids()) {
@@ -214,9 +227,8 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
   for (const Found& found : selected) {
     std::error_code error;
     if (!seen.insert(fs::weakly_canonical(found.path, error).string()).second) continue;
-    cases.push_back(is_model_file(found.path)
-                        ? read_case_text(import_model(found.path).case_text, found.path, found.id, vocabulary)
-                        : read_case(found.path, found.id, vocabulary));
+    cases.push_back(is_model_file(found.path) ? case_of_model(found.path, found.id, options)
+                                              : read_case(found.path, found.id, vocabulary));
     families.add_gates(found.path, cases.back());
     shorten_places(cases.back(), fs::path(found.path).parent_path().string(), suite_dir);
   }

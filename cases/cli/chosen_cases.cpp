@@ -12,22 +12,28 @@
 namespace rigor {
 namespace {
 
+// What is lost, and how much was assumed or is without effect.
 void say_how_imported(const Case& definition) {
-  const std::string& file = definition.id;
-  const std::string falling = falls_freely(definition.scene);
-  if (!falling.empty())
-    say(fmt::format("{}: there is no ground, so '{}' falls freely; rigor import prints a case file to add one", file,
-                    falling));
-  const std::vector<std::string> losses = losses_of(definition.text);
-  if (losses.empty()) return;
-  say(fmt::format("{}: physics left out or assumed (rigor import lists each place):", file));
-  for (const std::string& loss : losses) say("  " + loss);
+  say_if_it_falls(definition.id, definition.scene);
+  const auto count = [&](LossKind kind) { return losses_of(definition.losses, kind).size(); };
+  for (const Loss& loss : losses_of(definition.losses, LossKind::physical))
+    say(fmt::format("{}: lost: {}", definition.id, sentence_of(loss)));
+  if (count(LossKind::assumed) + count(LossKind::visual) > 0)
+    say(fmt::format(
+        "{}: {} assumptions, and {} kinds of elements without effect on the motion; rigor import lists them",
+        definition.id, count(LossKind::assumed), count(LossKind::visual)));
 }
 
 }  // namespace
 
+void say_if_it_falls(const std::string& file, const Scene& scene) {
+  const std::string falling = falls_freely(scene);
+  if (!falling.empty())
+    say(fmt::format("{}: it stands in empty space, so '{}' falls freely; --ground adds a plane", file, falling));
+}
+
 std::vector<Case> chosen_cases(const CaseWords& cases, const Invocation& invocation, const Vocabulary& words) {
-  std::vector<Case> chosen = select_cases(cases.words, cases.suite.dir, words);
+  std::vector<Case> chosen = select_cases(cases.words, cases.suite.dir, words, cases.imports.chosen);
   for (const Case& definition : chosen) {
     if (is_model_file(definition.id) && invocation.leads()) say_how_imported(definition);
   }

@@ -11,6 +11,9 @@ namespace rigor {
 
 std::vector<Case> chosen_cases(const CaseWords& cases, const Invocation& invocation, const Vocabulary& words);
 
+// Says on stderr that a robot stands in empty space, if it does. Names --ground.
+void say_if_it_falls(const std::string& file, const Scene& scene);
+
 // The same with other steps and another duration. A case of a family or folder that these do not fit is left out and
 // named. Throws InputError for a case that is itself named, and if none is left.
 std::vector<Case> overridden_cases(const CaseWords& cases, const Invocation& invocation, const Overrides& overrides,

@@ -63,8 +63,8 @@ std::string versions_of_parts() {
 [[noreturn]] void refuse_word(const std::string& word, const CommandRow* row) {
   const bool is_option = word.starts_with("-");
   if (!row && !is_option) {
-    throw InputError(fmt::format("there is no command '{}'{}; there is: {}", word, did_you_mean(word, names_of(commands())),
-                                 listed(names_of(commands()))));
+    throw InputError(fmt::format("there is no command '{}'{}; there is: {}", word,
+                                 did_you_mean(word, names_of(commands())), listed(names_of(commands()))));
   }
   std::vector<std::string> known;
   if (!row) known.push_back("--version");

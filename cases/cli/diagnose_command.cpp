@@ -48,7 +48,7 @@ class DiagnoseCommand : public Command {
  private:
   std::vector<ProbeScene> probes(const Vocabulary& vocabulary) const {
     if (cases_.words.empty()) return probes_of_suite(vocabulary);
-    return probes_of(select_cases(cases_.words, cases_.suite.dir, vocabulary));
+    return probes_of(select_cases(cases_.words, cases_.suite.dir, vocabulary, cases_.imports.chosen));
   }
 
   CaseWords cases_;

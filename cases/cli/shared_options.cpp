@@ -19,9 +19,17 @@ void SuiteOption::declare(Options& options) {
   });
 }
 
+void ImportFlags::declare(Options& options) {
+  options.add_flag("--ground", "put a plane under a robot's file", chosen.ground);
+  options.add({"--keyframe", "NAME", "start an MJCF model from this keyframe"}, chosen.keyframe);
+  options.add_flag("--lossy", "accept that the import of a robot's file loses physics", chosen.lossy);
+  options.add_flag("--repair-inertia", "replace inertias that no body can have by the nearest", chosen.repair_inertia);
+  options.before_run([this] { use_imports(chosen); });
+}
+
 void CaseWords::declare(Options& options) {
   options.add_words(words);
-  suite.declare(options);
+  suite.declare(options), imports.declare(options);
 }
 
 void PluginOption::declare(Options& options) {

@@ -8,6 +8,7 @@
 #include "adapters/engines.h"
 #include "cases/case/case.h"
 #include "cases/cli/options.h"
+#include "cases/import/import_options.h"
 #include "cases/runner/shards/shard.h"
 
 namespace rigor {
@@ -17,9 +18,16 @@ struct SuiteOption {
   void declare(Options& options);
 };
 
+// Of robots' files.
+struct ImportFlags {
+  ImportOptions chosen;
+  void declare(Options& options);
+};
+
 struct CaseWords {
   std::vector<std::string> words;  // case ids, families, files or folders
   SuiteOption suite;
+  ImportFlags imports;
   void declare(Options& options);
 };
 

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "adapters/models.h"
-#include "cases/import/assembly.h"
+#include "cases/import/assembly/assembly.h"
 #include "cases/import/memory_limit.h"
 #include "cases/import/model_files.h"
 #include "cases/import/sdf/sdf_reader.h"
@@ -21,24 +23,34 @@
 namespace rigor {
 namespace {
 
-constexpr const char *kLoss = "# physics: ", *kLeftOut = "# left out: ";
 constexpr std::size_t kMostMemory = std::size_t{900} << 20;  // bytes, beside the program's own
 
-LinkModel read_mjcf(const XmlFile& file, const std::string& keyframe) {
-  check_files_of_mjcf(file);
-  return mujoco_link_model(file.path(), keyframe);
+LinkModel read_mjcf(const XmlFile& file, const ImportOptions& options) {
+  MjcfSource source = check_files_of_mjcf(file);
+  source.keyframe = options.keyframe;
+  try {
+    return mujoco_link_model(source);
+  } catch (const InputError& error) {  // MuJoCo numbers keyframes, and names no line of theirs
+    const std::string what = error.what(), start = file.path() + ":1: ";
+    const std::size_t key = what.find("key ");
+    const auto place = key == std::string::npos ? source.places.end()
+                                                : source.places.find(fmt::format("key {}", std::atoi(&what[key + 4])));
+    if (place == source.places.end() || !what.starts_with(start)) throw;
+    throw InputError(place->second + ": " + what.substr(start.size()));
+  }
 }
 
-template <LinkModel (*kRead)(const XmlFile&)>
-LinkModel read_without_keyframes(const XmlFile& file, const std::string& keyframe) {
-  if (!keyframe.empty())
-    file.root().refuse(fmt::format("found no keyframe '{}': a file of this format has none; MJCF has", keyframe));
-  return kRead(file);
+template <LinkModel (*kRead)(const XmlFile&, const ImportOptions&)>
+LinkModel read_without_keyframes(const XmlFile& file, const ImportOptions& options) {
+  if (!options.keyframe.empty())
+    file.root().refuse(
+        fmt::format("found no keyframe '{}': a file of this format has none; MJCF has", options.keyframe));
+  return kRead(file, options);
 }
 
 struct Format {
   std::string root, name;
-  LinkModel (*read)(const XmlFile& file, const std::string& keyframe);
+  LinkModel (*read)(const XmlFile& file, const ImportOptions& options);
 };
 const std::vector<Format> kFormats = {{"mujoco", "MJCF", read_mjcf},
                                       {"robot", "URDF", read_without_keyframes<read_urdf>},
@@ -53,37 +65,17 @@ const Format& format_of(const XmlElement& root) {
   root.refuse(fmt::format("found this at the top; allowed: {}", listed(names)));
 }
 
-// The truth 'reference' takes no contacts.
-std::string truth_of(const Scene& scene) {
-  if (!anything_can_touch(scene)) return "\"reference\"\n";
-  return "\"none\"  # bodies may touch; \"reference\" takes scenes in which nothing touches\n";
-}
-
-// A line break would end a comment.
+// A line break would end a title.
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, ' ');
   return text;
 }
 
-std::string case_text_of(const LinkModel& model, const Scene& scene, const std::string& format,
-                         const std::string& path) {
-  // JSON's texts are valid in TOML.
-  const auto quoted = [](const std::string& text) { return Json(one_line(text)).dump(); };
-  std::string text;
-  for (const std::string& sentence : model.left_out.losses()) text += kLoss + one_line(sentence) + "\n";
-  for (const std::string& sentence : model.left_out.sentences()) text += kLeftOut + one_line(sentence) + "\n";
-  text += fmt::format("title = {}\nsource = {}\n\n", quoted(model.name + ", as its " + format + " file has it"),
-                      quoted("imported from " + std::filesystem::path(path).filename().string()));
-  text += scene_toml(scene);
-  return text + fmt::format("\n[run]\nduration = 2\ndt = [\"1/30\", \"1/240\", \"1/1000\"]\n\n[truth]\nkind = {}",
-                            truth_of(scene));
-}
-
 // A fault of the whole model has no line of its own.
-Scene scene_of_file(LinkModel& model, const std::string& path) {
+Scene scene_of_file(LinkModel& model, const std::string& path, bool with_ground) {
   try {
-    return scene_of(model);
+    return scene_of(model, with_ground);
   } catch (const InputError& error) {
     const std::string what = error.what();
     throw InputError(what.starts_with(path) ? what : path + ":1: " + what);
@@ -93,29 +85,63 @@ Scene scene_of_file(LinkModel& model, const std::string& path) {
 }  // namespace
 
 bool is_model_file(const std::string& path) {
-  static const std::vector<std::string> endings = {".urdf", ".sdf", ".mjcf", ".xml"};
+  static const std::vector<std::string> endings = {".urdf", ".sdf", ".mjcf", ".xml", ".xacro"};
   return std::find(endings.begin(), endings.end(), std::filesystem::path(path).extension().string()) != endings.end();
 }
 
-Import import_model(const std::string& path, const std::string& keyframe) {
+Import import_model(const std::string& path, const ImportOptions& options) {
+  if (path.ends_with(".xacro"))
+    throw InputError(fmt::format("{0}:1: is a macro of xacro; expand it first: xacro {0} > robot.urdf", path));
   return within_memory(kMostMemory, path, [&] {
     const XmlFile file(path);
     const Format& format = format_of(file.root());
-    LinkModel model = format.read(file, keyframe);
-    const Scene scene = scene_of_file(model, path);
-    return Import{case_text_of(model, scene, format.name, path), model.left_out.losses(), model.left_out.sentences()};
+    LinkModel model = format.read(file, options);
+    Import made;
+    made.scene = scene_of_file(model, path, options.ground);
+    made.losses = model.left_out.all();
+    made.title = one_line(model.name + ", as its " + format.name + " file has it");
+    made.source = one_line("imported from " + std::filesystem::path(path).filename().string());
+    return made;
   });
 }
 
-std::vector<std::string> losses_of(const std::string& case_text) {
-  const std::string start = kLoss;
+void refuse_losses(const Import& import, const std::string& path, const ImportOptions& options) {
+  const std::vector<Loss> physical = losses_of(import.losses, LossKind::physical);
+  if (physical.empty() || options.lossy) return;
+  std::string text = fmt::format("{}: this would be another robot; {} of physics would be lost:", path,
+                                 physical.size() == 1 ? "1 kind" : fmt::format("{} kinds", physical.size()));
+  for (const Loss& loss : physical) text += "\n  " + sentence_of(loss);
+  throw InputError(text + "\n  --lossy accepts these losses");
+}
+
+std::vector<std::string> lines_of(const std::vector<Loss>& losses) {
   std::vector<std::string> lines;
-  for (std::size_t at = 0; case_text.compare(at, start.size(), start) == 0;) {
-    const std::size_t end = case_text.find('\n', at);
-    lines.push_back(case_text.substr(at + start.size(), end - at - start.size()));
-    at = end + 1;
+  for (const auto& [kind, title] : {std::pair{LossKind::physical, "not the same robot; lost physics:"},
+                                    {LossKind::assumed, "assumed where the file leaves it open:"}}) {
+    const std::vector<Loss> rows = losses_of(losses, kind);
+    if (!rows.empty()) lines.emplace_back(title);
+    for (const Loss& loss : rows) lines.push_back("  " + sentence_of(loss));
   }
+  std::map<std::string, std::size_t> counts;
+  for (const Loss& loss : losses_of(losses, LossKind::visual)) counts[loss.what] += loss.count;
+  std::string visual;
+  for (const auto& [what, count] : counts) visual += fmt::format("{}{} {}", visual.empty() ? "" : ", ", count, what);
+  if (!visual.empty()) lines.push_back("left out, without effect on the motion: " + visual);
   return lines;
+}
+
+// The truth 'reference' takes no contacts.
+std::string truth_of_model(const Scene& scene) { return anything_can_touch(scene) ? "none" : "reference"; }
+
+std::string case_text_of(const Import& import) {
+  // JSON's texts are valid in TOML.
+  const auto quoted = [](const std::string& text) { return Json(text).dump(); };
+  const std::string truth = truth_of_model(import.scene);
+  return fmt::format(
+      "title = {}\nsource = {}\n\n{}\n[run]\nduration = {}\ndt = [\"{}\"]\n\n[truth]\nkind = \"{}\"{}\n",
+      quoted(import.title), quoted(import.source), scene_toml(import.scene), kModelDuration,
+      fmt::join(kModelSteps, "\", \""), truth,
+      truth == "none" ? "  # bodies may touch; \"reference\" takes scenes in which nothing touches" : "");
 }
 
 std::string falls_freely(const Scene& scene) {

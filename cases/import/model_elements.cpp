@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "cases/import/assembly/mass_moments.h"
 #include "core/base/unit_vector.h"
 #include "core/scene/validate.h"
 
@@ -24,9 +26,18 @@ void check_mass(double mass, const XmlElement& element) {
   if (!(mass > 0)) element.refuse(fmt::format("the mass is {}; allowed: a number greater than 0", mass));
 }
 
-void check_inertia(const Mat3& inertia, const XmlElement& element) {
+Mat3 checked_inertia(const Mat3& inertia, const XmlElement& element, bool repair, LeftOut& left_out) {
+  if (inertia.isZero(0)) return inertia;
   const std::string why = why_no_inertia(inertia);
-  if (!why.empty()) element.refuse("no body has this inertia: " + why);
+  if (why.empty()) return inertia;
+  if (!repair)
+    element.refuse(
+        fmt::format("no body has this inertia: {}; --repair-inertia takes the nearest that one can have", why));
+  const auto repaired = inertia.allFinite() ? nearest_inertia(inertia) : std::nullopt;
+  if (!repaired) element.refuse(fmt::format("no body has this inertia, and none is near: {}", why));
+  left_out.add(element.place(), "an inertia that no body has",
+               assumed(fmt::format("--repair-inertia changed it by {:.2g} %", 100 * repaired->change)));
+  return repaired->inertia;
 }
 
 double positive(double value, const char* what, const XmlElement& element) {

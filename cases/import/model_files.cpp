@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "core/base/error.h"
@@ -43,10 +44,16 @@ class MjcfFiles {
   }
 
   // Runs when all folders that may hold a file are known.
-  void check_assets() const {
+  void check_assets() {
     for (const auto& [where, element, path] : assets_) {
       for (const std::string& folder : folders_) check(where, element, folder.empty() ? path : folder + "/" + path);
     }
+  }
+
+  MjcfSource source() && {
+    MjcfSource all{model_, "", {}, std::move(places_)};
+    all.files.assign(files_.begin(), files_.end());
+    return all;
   }
 
  private:
@@ -55,18 +62,31 @@ class MjcfFiles {
   };
 
   void collect(const XmlFile& file) {
-    std::vector<XmlElement> waiting = {file.root()};
+    std::vector<std::pair<XmlElement, std::string>> waiting = {{file.root(), ""}};
     while (!waiting.empty()) {
-      const XmlElement element = waiting.back();
+      const auto [element, section] = waiting.back();
       waiting.pop_back();
+      keep_place(element, section);
       for (const auto& [attribute, value] : element.attributes()) {
         if (names_a_file(attribute) || names_a_folder(attribute)) check_stays_in_folder(value, element, model_);
         if (names_a_folder(attribute)) folders_.insert(value);
         if (names_a_file(attribute)) assets_.push_back({element.where(), element.name(), value});
         if (names_a_file(attribute) && element.name() == "include") include(value, element);
       }
-      for (const XmlElement& child : element.children()) waiting.push_back(child);
+      static const std::set<std::string> kSections = {"actuator", "equality", "tendon"};
+      const std::string below = kSections.contains(element.name()) ? element.name() : section;
+      const std::vector<XmlElement> children = element.children();
+      for (auto child = children.rbegin(); child != children.rend(); ++child) waiting.emplace_back(*child, below);
     }
+  }
+
+  // MuJoCo knows an element by its name and its kind: "joint/elbow", "actuator/knee".
+  void keep_place(const XmlElement& element, const std::string& section) {
+    if (element.name() == "key") places_.emplace(fmt::format("key {}", keys_++), element.where());
+    const auto name = element.find("name");
+    if (!name) return;
+    const std::string word = element.name() == "freejoint" ? "joint" : element.name();
+    places_.emplace((section.empty() ? word : section) + "/" + *name, element.where());
   }
 
   // MuJoCo itself refuses a file that is included twice.
@@ -77,7 +97,7 @@ class MjcfFiles {
     read(XmlFile(file.string()));
   }
 
-  void check(const std::string& where, const std::string& element, const std::string& path) const {
+  void check(const std::string& where, const std::string& element, const std::string& path) {
     std::error_code error;
     const fs::path folder = folder_of(model_), file = fs::weakly_canonical(folder / path, error);
     if (error || !is_inside(file, folder))
@@ -87,12 +107,14 @@ class MjcfFiles {
     if (!fs::is_regular_file(status) || fs::file_size(file, error) > kLargestModel)
       throw InputError(fmt::format("{}: <{}>: '{}' is no regular file of at most {} MiB", where, element, path,
                                    kLargestModel >> 20));
+    files_.insert(path);
   }
 
   std::string model_;
-  std::size_t size_ = 0;
+  std::size_t size_ = 0, keys_ = 0;
   std::vector<Asset> assets_;
-  std::set<std::string> folders_ = {""}, included_;
+  std::set<std::string> folders_ = {""}, included_, files_;
+  std::map<std::string, std::string> places_;
 };
 
 }  // namespace
@@ -110,10 +132,31 @@ void check_stays_in_folder(const std::string& path, const XmlElement& element, c
         fmt::format("'{}' leaves the folder of the model; allowed: a path inside it, package:// or model://", path));
 }
 
-void check_files_of_mjcf(const XmlFile& model) {
+std::optional<std::string> file_of_mesh(const std::string& path, const XmlElement& element, const std::string& model) {
+  check_stays_in_folder(path, element, model);
+  fs::path folder = folder_of(model), rest = path;
+  for (const std::string scheme : {"package://", "model://"}) {
+    if (!path.starts_with(scheme)) continue;
+    const std::size_t slash = path.find('/', scheme.size());
+    const std::string package = path.substr(scheme.size(), slash - scheme.size());
+    if (slash == std::string::npos || package.empty()) return {};
+    while (folder.filename() != package && folder.has_relative_path()) folder = folder.parent_path();
+    if (folder.filename() != package) return {};
+    rest = path.substr(slash + 1);
+  }
+  std::error_code error;
+  const fs::path file = fs::weakly_canonical(folder / rest, error);
+  if (error || rest.is_absolute() || !is_inside(file, folder))
+    element.refuse(fmt::format("'{}' leaves the folder of its package", path));
+  if (!fs::is_regular_file(file, error)) element.refuse(fmt::format("there is no file '{}'", path));
+  return file.string();
+}
+
+MjcfSource check_files_of_mjcf(const XmlFile& model) {
   MjcfFiles files(model.path());
   files.read(model);
   files.check_assets();
+  return std::move(files).source();
 }
 
 }  // namespace rigor

@@ -6,8 +6,10 @@
 #include <map>
 #include <set>
 
+#include "cases/import/mesh_shape.h"
 #include "cases/import/model_elements.h"
 #include "cases/import/model_files.h"
+#include "cases/import/urdf_gazebo.h"
 #include "core/base/near_match.h"
 
 namespace rigor {
@@ -18,7 +20,8 @@ const std::vector<std::string> kJointTypes = {"revolute", "continuous", "prismat
 
 class UrdfReader {
  public:
-  explicit UrdfReader(const XmlFile& file) : file_(file), root_(file.root()) {}
+  UrdfReader(const XmlFile& file, const ImportOptions& options)
+      : file_(file), repairs_(options.repair_inertia), root_(file.root()) {}
 
   LinkModel read() {
     if (root_.name() != "robot") root_.refuse("found this at the top; allowed: <robot>");
@@ -26,20 +29,22 @@ class UrdfReader {
     model_.combine = least_of, model_.keeps_overlaps_apart = true;
     model_.gravity = {0, 0, -kGravity};
     model_.left_out.add(root_.place(), "gravity",
-                        fmt::format("the format states none: {} m/s² along -z are assumed", kGravity));
+                        assumed(fmt::format("the format states none: {} m/s² along -z are assumed", kGravity)));
     root_.check({{"name", "version"},
-                 {"link", "joint"},
+                 {"link", "joint", "gazebo"},
                  {{"material", kIsSeen},
-                  {"transmission", "changes no motion: describes a drive that nothing controls"},
-                  {"gazebo", "is read by Gazebo alone"},
+                  {"transmission", no_motion("describes a drive that nothing controls")},
                   {"ros2_control", kController},
                   {"sensor", kSensor},
-                  {"mujoco", "is read by MuJoCo alone"}}},
+                  {"group", kController},
+                  {"mujoco", assumed("is for MuJoCo's compiler")}}},
                 model_.left_out);
     for (const XmlElement& element : root_.children("link")) read_link(element);
     if (model_.links.empty()) root_.refuse("there is no <link>");
     for (const XmlElement& element : root_.children("joint")) read_joint(element);
+    read_mimics();
     place_links();
+    for (const XmlElement& element : root_.children("gazebo")) read_urdf_gazebo(element, links_, model_);
     return std::move(model_);
   }
 
@@ -75,25 +80,25 @@ class UrdfReader {
     element.check({{}, {"origin", "mass", "inertia"}}, model_.left_out);
     const XmlElement mass = element.only("mass"), inertia = element.only("inertia");
     mass.check({{"value"}, {}}, model_.left_out);
-    constexpr const char* kOtherHalf =
-        "changes no motion: repeats a half of a symmetric matrix; ixy, ixz and iyz are taken";
+    const Reason kOtherHalf = assumed("repeats a half of a symmetric matrix; ixy, ixz and iyz are taken");
     inertia.check({{"ixx", "iyy", "izz", "ixy", "ixz", "iyz"},
                    {},
                    {{"iyx", kOtherHalf}, {"izx", kOtherHalf}, {"izy", kOtherHalf}}},
                   model_.left_out);
     if (mass.number("value") == 0) {
-      model_.left_out.add(mass.place(), "its inertia", "a mass of 0 is none: the link is taken as one without mass");
+      model_.left_out.add(mass.place(), "its inertia",
+                          assumed("a mass of 0 is none: the link is taken as one without mass"));
       return {};
     }
     LinkInertial out{mass.number("value"), origin_of(element),
                      symmetric(inertia.number("ixx"), inertia.number("iyy"), inertia.number("izz"),
                                inertia.number("ixy"), inertia.number("ixz"), inertia.number("iyz"))};
     check_mass(out.mass, mass);
-    check_inertia(out.inertia, inertia);
+    out.inertia = checked_inertia(out.inertia, inertia, repairs_, model_.left_out);
     return {out};
   }
 
-  // A mesh is left out, but its path is checked, because the next reader may open it.
+  // The mesh of a visual is not read, but the next reader may open it.
   void check_mesh(const XmlElement& of) {
     const auto geometry = of.child("geometry");
     const auto mesh = geometry ? geometry->child("mesh") : std::nullopt;
@@ -101,14 +106,14 @@ class UrdfReader {
   }
 
   void read_collision(const XmlElement& element, Link& link) {
-    element.check(
-        {{"name"},
-         {"origin", "geometry"},
-         {{"verbose", kSaysNothing}, {"contact_coefficients", "changes no motion: is not of the format any more"}}},
-        model_.left_out);
-    check_mesh(element);
+    element.check({{"name"},
+                   {"origin", "geometry"},
+                   {{"verbose", kSaysNothing},
+                    {"material", kIsSeen},
+                    {"contact_coefficients", assumed("is not of the format any more")}}},
+                  model_.left_out);
     const XmlElement geometry = element.only("geometry");
-    geometry.check({{}, {"box", "sphere", "capsule"}, {{"cylinder", kCylinder}, {"mesh", kMesh}}}, model_.left_out);
+    geometry.check({{}, {"box", "capsule", "cylinder", "mesh", "sphere"}}, model_.left_out);
     const auto shape = shape_of(geometry);
     if (shape)
       link.shapes.push_back(
@@ -117,8 +122,12 @@ class UrdfReader {
 
   std::optional<Shape> shape_of(const XmlElement& geometry) {
     std::optional<Shape> shape;
+    bool is_first = true;
     for (const XmlElement& element : geometry.children()) {
-      if (shape) element.refuse("is a second shape; allowed: one");
+      if (!std::exchange(is_first, false)) element.refuse("is a second shape; allowed: one");
+      const auto length = [&](const char* key) {
+        return positive(element.number(key), fmt::format("its {}", key).c_str(), element);
+      };
       if (element.name() == "box") {
         element.check({{"size"}, {}}, model_.left_out);
         const Vec3 size = vector_of(element.find_numbers("size", 3));
@@ -126,11 +135,17 @@ class UrdfReader {
         shape = Box{size};
       } else if (element.name() == "sphere") {
         element.check({{"radius"}, {}}, model_.left_out);
-        shape = Sphere{positive(element.number("radius"), "its radius", element)};
+        shape = Sphere{length("radius")};
       } else if (element.name() == "capsule") {
         element.check({{"radius", "length"}, {}}, model_.left_out);
-        shape = Capsule{positive(element.number("radius"), "its radius", element),
-                        positive(element.number("length"), "its length", element)};
+        shape = Capsule{length("radius"), length("length")};
+      } else if (element.name() == "cylinder") {
+        element.check({{"radius", "length"}, {}}, model_.left_out);
+        shape = Cylinder{length("radius"), length("length")};
+      } else if (element.name() == "mesh") {
+        element.check({{"filename", "scale"}, {}}, model_.left_out);
+        const Vec3 scale = element.find("scale") ? vector_of(element.find_numbers("scale", 3)) : Vec3::Ones().eval();
+        shape = hull_of_mesh(element.at("filename"), scale, element, file_.path(), model_.left_out);
       }
     }
     return shape;
@@ -149,13 +164,11 @@ class UrdfReader {
   }
 
   void read_joint(const XmlElement& element) {
-    element.check({{"name", "type"},
-                   {"origin", "parent", "child", "axis", "limit", "dynamics"},
-                   {{"mimic", "couples two joints, which no scene does: each moves by itself"},
-                    {"calibration", kController},
-                    {"safety_controller", kController},
-                    {"hardwareInterface", kController}}},
-                  model_.left_out);
+    element.check(
+        {{"name", "type"},
+         {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"},
+         {{"calibration", kController}, {"safety_controller", kController}, {"hardwareInterface", kController}}},
+        model_.left_out);
     LinkJoint row;
     row.where = element.place();
     row.joint.name = element.name_attribute();
@@ -175,31 +188,65 @@ class UrdfReader {
 
   void read_coordinate(const XmlElement& element, const std::string& type, LinkJoint& row) {
     const auto limit = element.child("limit"), dynamics = element.child("dynamics"), axis = element.child("axis");
+    const bool slides = type == "prismatic", turns = type == "revolute" || type == "continuous";
     Vec3 along = Vec3::UnitX();  // the format's default
     if (axis) {
       axis->check({{"xyz"}, {}}, model_.left_out);
-      along = direction_of(vector_of(axis->find_numbers("xyz", 3)), *axis);
+      const Vec3 given = vector_of(axis->find_numbers("xyz", 3));
+      // Many files give a fixed joint the axis 0 0 0, which says nothing there.
+      if (slides || turns || type == "planar") along = direction_of(given, *axis);
     }
-    const bool slides = type == "prismatic", turns = type == "revolute" || type == "continuous";
     if (slides) row.joint.type = SliderJoint{along};
     if (turns) row.joint.type = HingeJoint{Vec3::Zero(), along};
     if (type == "fixed") row.joint.type = FixedJoint{};
+#if __has_include("core/scene/joints/planar_joint.h")
+    if (type == "planar") row.joint.type = PlanarJoint{Vec3::Zero(), along};
+#endif
     if (!slides && !turns) return;
     if (dynamics) {
       dynamics->check({{"damping", "friction"}, {}}, model_.left_out);
       row.joint.damping = not_negative(dynamics->find_number("damping").value_or(0), "damping", *dynamics);
-      if (dynamics->find_number("friction").value_or(0) != 0)
-        model_.left_out.add(dynamics->place(), "attribute 'friction'", kDryFriction);
+      row.friction = not_negative(dynamics->find_number("friction").value_or(0), "friction", *dynamics);
     }
     if (limit)
       limit->check({{"lower", "upper"}, {}, {{"effort", kBoundsADrive}, {"velocity", kBoundsADrive}}}, model_.left_out);
     if (type == "continuous") return;
     if (!limit) element.refuse(fmt::format("there is no <limit>, which a {} joint must have", type));
-    row.joint.lower = limit->find_number("lower").value_or(0),
-    row.joint.upper = limit->find_number("upper").value_or(0);
-    if (!(row.joint.lower < row.joint.upper))
-      limit->refuse(fmt::format("lower is {} and upper {}; allowed: limits of which the upper is greater",
-                                row.joint.lower, row.joint.upper));
+    const double lower = limit->find_number("lower").value_or(0), upper = limit->find_number("upper").value_or(0);
+    if (lower > upper)
+      limit->refuse(
+          fmt::format("lower is {} and upper {}; allowed: limits of which the upper is greater", lower, upper));
+    if (lower == upper) return hold_at(lower, row);
+    row.joint.lower = lower, row.joint.upper = upper;
+  }
+
+  // Between equal limits nothing moves.
+  void hold_at(double place, LinkJoint& row) {
+    if (place != 0) {
+      model_.left_out.add(row.where, "equal limits", lost("hold the joint beside its zero: it is held at zero"));
+    } else {
+      model_.left_out.add(row.where, "equal limits", no_motion("hold the joint: it becomes a fixed one"));
+    }
+    row.joint.type = FixedJoint{};
+  }
+
+  void read_mimics() {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const auto mimic = held_[k].element.child("mimic");
+      if (!mimic) continue;
+      mimic->check({{"joint", "multiplier", "offset"}, {}}, model_.left_out);
+      const std::string name = mimic->at("joint");
+      const auto found =
+          std::find_if(rows_.begin(), rows_.end(), [&](const LinkJoint& row) { return row.joint.name == name; });
+      std::vector<std::string> names;
+      for (const LinkJoint& row : rows_) names.push_back(row.joint.name);
+      if (found == rows_.end()) mimic->refuse(fmt::format("there is no joint '{}'{}", name, did_you_mean(name, names)));
+      LinkCoupling row{static_cast<int>(k), static_cast<int>(found - rows_.begin())};
+      if (row.joint == row.to) mimic->refuse("the joint mimics itself");
+      row.ratio = mimic->find_number("multiplier").value_or(1), row.offset = mimic->find_number("offset").value_or(0);
+      row.where = mimic->place();
+      model_.couplings.push_back(row);
+    }
   }
 
   // Places links from the root outwards. A link that is not reached belongs to a circle.
@@ -217,7 +264,7 @@ class UrdfReader {
     for (std::size_t i = 0; i < model_.links.size(); ++i) {
       if (holder[i] >= 0) continue;
       waiting.push_back(static_cast<int>(i));
-      place_root(model_.links[i]);
+      place_root(i, below);
     }
     std::size_t placed = 0;
     while (!waiting.empty()) {
@@ -234,17 +281,43 @@ class UrdfReader {
       if (!reached_[&model_.links[i]])
         held_[holder[i]].element.refuse("its links hang on each other in a circle; allowed: a tree");
     }
-    for (std::size_t k = 0; k < rows_.size(); ++k) keep(rows_[k], types_[k]);
+    keep_joints();
   }
 
-  // Robots are bolted down by a root without mass.
-  void place_root(Link& root) {
-    root.is_static = root.name == "world" || root.inertial.empty();
+  // A root called "world" is bolted down, and one without mass. But a root frame that fixed joints connect with a mass
+  // is free where more than one joint moves against it: it is the base of a vehicle and not the foot of an arm.
+  void place_root(std::size_t index, const std::vector<std::vector<std::size_t>>& below) {
+    Link& root = model_.links[index];
     place_at(root, BodyPose());
-    if (root.is_static) return;
+    const auto [has_mass, joints] = base_of(index, below);
+    root.is_static = root.name == "world" || !has_mass || (root.inertial.empty() && joints < 2);
+    if (!has_mass || root.name == "world") return;
     model_.left_out.add(
         root.where, "a base",
-        "the root has mass and no joint to the world: it is free. A fixed joint to a link 'world' would hold it");
+        assumed(root.is_static
+                    ? "is held by the world: its root has no mass, and carries one arm"
+                    : "has mass and no joint to the world: it is free. A fixed joint to a link 'world' would hold it"));
+  }
+
+  // Of the links on fixed joints from the root on: whether any has mass, and how many joints move against them.
+  std::pair<bool, std::size_t> base_of(std::size_t root, const std::vector<std::vector<std::size_t>>& below) const {
+    std::vector<std::size_t> waiting = {root};
+    std::set<std::size_t> seen;
+    std::pair<bool, std::size_t> found = {false, 0};
+    while (!waiting.empty()) {
+      const std::size_t link = waiting.back();
+      waiting.pop_back();
+      if (!seen.insert(link).second) continue;
+      found.first = found.first || !model_.links[link].inertial.empty();
+      for (const std::size_t k : below[link + 1]) {
+        if (types_[k] == "fixed") {
+          waiting.push_back(static_cast<std::size_t>(held_[k].child));
+        } else {
+          ++found.second;
+        }
+      }
+    }
+    return found;
   }
 
   void place_at(Link& link, const BodyPose& pose) {
@@ -261,14 +334,29 @@ class UrdfReader {
     });
   }
 
-  void keep(const LinkJoint& row, const std::string& type) {
-    if (type == "floating") return;  // the default of a body without a joint
-    if (type == "planar")
-      return model_.left_out.add(row.where, "its planar type", "no scene has this joint: the two links come apart");
-    model_.joints.push_back(row);
+  bool is_apart(std::size_t k) {
+    if (types_[k] != "planar") return false;
+#if __has_include("core/scene/joints/planar_joint.h")
+    return false;
+#endif
+    model_.left_out.add(rows_[k].where, "a planar joint", lost("no scene has this joint: the two links come apart"));
+    return true;
+  }
+
+  // All joints are kept, so that mimics find them; a floating one is no joint of a scene.
+  void keep_joints() {
+    std::vector<int> place(rows_.size(), -1);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      if (types_[k] == "floating" || is_apart(k)) continue;
+      place[k] = static_cast<int>(model_.joints.size());
+      model_.joints.push_back(rows_[k]);
+    }
+    for (LinkCoupling& row : model_.couplings) row.joint = place[row.joint], row.to = place[row.to];
+    std::erase_if(model_.couplings, [](const LinkCoupling& row) { return row.joint < 0 || row.to < 0; });
   }
 
   const XmlFile& file_;
+  bool repairs_;
   XmlElement root_;
   LinkModel model_;
   std::map<std::string, std::size_t> links_;
@@ -281,6 +369,6 @@ class UrdfReader {
 
 }  // namespace
 
-LinkModel read_urdf(const XmlFile& file) { return UrdfReader(file).read(); }
+LinkModel read_urdf(const XmlFile& file, const ImportOptions& options) { return UrdfReader(file, options).read(); }
 
 }  // namespace rigor

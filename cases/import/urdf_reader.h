@@ -2,10 +2,11 @@
 // pitch and yaw turn about fixed axes. An axis is given in the joint's frame, which is the child's.
 #pragma once
 
+#include "cases/import/import_options.h"
 #include "cases/import/xml.h"
 
 namespace rigor {
 
-LinkModel read_urdf(const XmlFile& file);
+LinkModel read_urdf(const XmlFile& file, const ImportOptions& options);
 
 }  // namespace rigor

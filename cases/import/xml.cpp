@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -16,7 +17,8 @@ namespace rigor {
 namespace {
 
 constexpr const char* kWhite = " \t\r\n";
-constexpr const char* kNotOfFormat = "is not of the format";
+// Nobody knows what an unknown element means, so it may change the motion.
+const Reason kNotOfFormat = lost("is not of the format");
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(kWhite);
@@ -57,7 +59,7 @@ long line_of_bad_utf8(const std::string& text) {
   return 0;
 }
 
-const std::string* why_left_out(const XmlKnown& known, const std::string& word) {
+const Reason* why_left_out(const XmlKnown& known, const std::string& word) {
   for (const auto& [name, why] : known.left_out) {
     if (name == word) return &why;
   }
@@ -113,6 +115,9 @@ double XmlElement::one_number(const std::string& text, const std::string& what) 
   double value = 0;
   const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
   const bool is_whole = end == word.data() + word.size() && error == std::errc();
+  if (word.find("${") != std::string::npos)
+    refuse(fmt::format("{}: found '{}', an expression of xacro; expand it first: xacro {} > robot.urdf", what, word,
+                       std::filesystem::path(*file_).filename().string()));
   // from_chars also refuses numbers too small for a double; they count as 0.
   if (error == std::errc::result_out_of_range && std::abs(std::strtod(word.c_str(), nullptr)) < 1) return 0;
   if (!is_whole || !std::isfinite(value)) refuse(fmt::format("{}: found '{}'; allowed: a finite number", what, word));
@@ -197,13 +202,13 @@ std::vector<std::pair<std::string, std::string>> XmlElement::attributes() const 
 // `place` is that of the attribute or element. Returns false for an unknown word.
 bool XmlElement::check_word(const std::string& word, const std::string& place, const std::string& what,
                             const std::vector<std::string>& words, const XmlKnown& known, LeftOut& left_out) const {
-  if (const std::string* why = why_left_out(known, word)) return left_out.add(place, what, *why), true;
+  if (const Reason* why = why_left_out(known, word)) return left_out.add(place, what, *why), true;
   if (word.starts_with("xacro:"))
-    throw InputError(
-        fmt::format("{}: <{}> is a macro of xacro; allowed: the file that `xacro` makes of it", place, word));
+    throw InputError(fmt::format("{}: <{}> is a macro of xacro; expand it first: xacro {} > robot.urdf", place, word,
+                                 std::filesystem::path(*file_).filename().string()));
   if (word.starts_with("xmlns")) return true;
   if (word.find(':') != std::string::npos)
-    return left_out.add(place, what, "belongs to an extension of the format"), true;
+    return left_out.add(place, what, lost("belongs to an extension of the format")), true;
   std::vector<std::string> all = words;
   for (const auto& row : known.left_out) all.push_back(row.first);
   const std::string meant = did_you_mean(word, all);

@@ -20,7 +20,7 @@ namespace rigor {
 // The words that an element may hold. `left_out`: words of the format that no scene can say, and why.
 struct XmlKnown {
   std::vector<std::string> attributes, elements;
-  std::vector<std::pair<std::string, std::string>> left_out = {};
+  std::vector<std::pair<std::string, Reason>> left_out = {};
 };
 
 class XmlElement {

@@ -3,39 +3,14 @@
 // which every joint is at its zero.
 #pragma once
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/scene/left_out.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
-
-// Begins the reason of an element whose loss changes no motion.
-inline constexpr const char* kNoMotion = "changes no motion";
-
-// The elements of a file that no scene can say. A kind is what was left out and why. Places of a kind beyond the first
-// few are counted.
-class LeftOut {
- public:
-  static constexpr std::size_t kPlaces = 20, kMostKinds = 1000;
-
-  // `where`: "file:line: link 'arm'". Throws InputError beyond kMostKinds.
-  void add(const std::string& where, const std::string& what, const std::string& why);
-  std::vector<std::string> sentences() const;  // by kind, in the order in which kinds were met
-  // One sentence for each kind that changes motion, with its count and first place.
-  std::vector<std::string> losses() const;
-
- private:
-  struct Kind {
-    std::string what, why;
-    std::vector<std::string> places;
-    std::size_t count = 0;
-  };
-  std::vector<Kind> kinds_;
-  std::map<std::pair<std::string, std::string>, std::size_t> index_;
-};
 
 struct LinkInertial {
   double mass = 0;              // kg
@@ -49,6 +24,8 @@ struct LinkShape {
   ContactLaw surface;               // of this shape; LinkModel::combine makes a pair's
   unsigned type = 1, affinity = 1;  // two shapes may touch if a bit of one's type is in the other's affinity
   std::string where;                // for messages: "file:line: collision 'foot'"
+  bool slips = false;               // has friction only against a shape that does not slip
+  int priority = 0;                 // the surface of the greater one counts alone
 };
 
 struct Link {
@@ -59,12 +36,24 @@ struct Link {
   bool is_static = false;          // part of the world
   int model = 0;                   // links of one model
   bool touches_own_model = false;  // may touch other links of it, but those it is joined to
+  double lifted = 0;               // share of its weight that a constant force carries; 1: gravity does not act on it
   Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  // m/s, of the pose's origin; rad/s; in W
 };
 
 struct LinkJoint {
   Joint joint;       // a and b: links, or kWorld; anchor and axes in W
   double start = 0;  // rad, m: where it is at t = 0; a scene's joint counts from there
+  std::string where = "";
+  double friction = 0;   // N m, N: Coulomb friction on the free axis
+  double armature = 0;   // kg m², kg: inertia of the rotor, added on the axis
+  bool is_driven = false;  // a motor or a coupling names it
+  bool is_loop = false;  // closes a loop beside the tree: its links may touch each other
+};
+
+// coordinate(joint) = ratio * coordinate(to) + offset, both counted from the file's zeros.
+struct LinkCoupling {
+  int joint, to;  // of LinkModel::joints
+  double ratio = 1, offset = 0;
   std::string where = "";
 };
 
@@ -73,9 +62,11 @@ struct LinkModel {
   Vec3 gravity = Vec3::Zero();  // m/s²
   std::vector<Link> links;
   std::vector<LinkJoint> joints;
-  std::vector<Spring> springs;                  // a and b: links; points in their frames
-  std::vector<Motor> motors;                    // joint: of `joints`
+  std::vector<Spring> springs;  // a and b: links; points in their frames
+  std::vector<Motor> motors;    // joint: of `joints`
+  std::vector<LinkCoupling> couplings;
   std::vector<std::pair<int, int>> kept_apart;  // links that never touch, beside those that a joint holds together
+  bool has_state = false;                       // the file says where each joint starts
   bool keeps_overlaps_apart = false;            // the file does not say which links touch
   double (*combine)(double, double) = nullptr;  // of two surfaces' friction, and of their restitution
   LeftOut left_out;

@@ -110,7 +110,7 @@ void read_model(const std::string& bytes) {
   static const std::string path = path_for(".xml");
   std::ofstream(path, std::ios::binary) << bytes;
   if (bytes.find("<mujoco") != std::string::npos) return;
-  read_or_refuse([&] { read_case_text(import_model(path).case_text, "fuzzed.toml", "fuzzed", test::words()); });
+  read_or_refuse([&] { read_case_text(case_text_of(import_model(path)), "fuzzed.toml", "fuzzed", test::words()); });
 }
 
 void read_case_file(const std::string& bytes) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "cases/import/model_elements.h"
 
@@ -10,25 +11,19 @@ namespace rigor {
 namespace {
 
 constexpr double kUnlimited = 1e16;  // of a joint's limits, as the format has it
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-void leave_out_sdf_coordinate(const XmlElement& axis, LeftOut& left_out) {
-  for (const char* word : {"limit", "dynamics"}) {
-    if (axis.child(word))
-      left_out.add(axis.place(), fmt::format("<{}>", word),
-                   "a scene's joint of two axes has no limits, springs or dampers");
-  }
-}
-
-void read_sdf_coordinate(const XmlElement& axis, const std::string& type, Joint& joint, LeftOut& left_out) {
+void read_sdf_coordinate(const XmlElement& axis, const std::string& type, LinkJoint& row, LeftOut& left_out) {
+  Joint& joint = row.joint;
   if (const auto limit = axis.child("limit")) {
     limit->check({{},
                   {"lower", "upper"},
                   {{"effort", kBoundsADrive},
                    {"velocity", kBoundsADrive},
-                   {"stiffness", "makes a limit soft; a scene's limits are hard"},
-                   {"dissipation", "makes a limit soft; a scene's limits are hard"}}},
+                   {"stiffness", assumed("makes a limit soft; a scene's limits are hard")},
+                   {"dissipation", assumed("makes a limit soft; a scene's limits are hard")}}},
                  left_out);
     const auto bound = [&](const char* word, double otherwise) {
       const auto found = limit->child(word);
@@ -40,6 +35,10 @@ void read_sdf_coordinate(const XmlElement& axis, const std::string& type, Joint&
       return std::abs(value) >= kUnlimited ? otherwise : value;
     };
     if (type != "continuous") joint.lower = bound("lower", joint.lower), joint.upper = bound("upper", joint.upper);
+    if (joint.lower == joint.upper && joint.lower == 0) {  // between equal limits nothing moves
+      joint.type = FixedJoint{}, joint.lower = -kInfinite, joint.upper = kInfinite;
+      return left_out.add(axis.place(), "equal limits", no_motion("hold the joint: it becomes a fixed one"));
+    }
     if (!(joint.lower < joint.upper))
       limit->refuse(fmt::format("lower is {} and upper {}; allowed: limits of which the upper is greater", joint.lower,
                                 joint.upper));
@@ -54,7 +53,7 @@ void read_sdf_coordinate(const XmlElement& axis, const std::string& type, Joint&
   joint.damping = not_negative(value("damping"), "damping", *dynamics);
   joint.stiffness = not_negative(value("spring_stiffness"), "spring_stiffness", *dynamics);
   joint.rest = value("spring_reference");
-  if (value("friction") != 0) left_out.add(dynamics->place(), "<friction>", kDryFriction);
+  row.friction = not_negative(value("friction"), "friction", *dynamics);
 }
 
 }  // namespace rigor

@@ -8,7 +8,8 @@ namespace rigor {
 // A <pose>: x y z roll pitch yaw, or as its attributes say. The caller resolves relative_to.
 BodyPose sdf_pose(const std::optional<XmlElement>& pose, LeftOut& left_out);
 
-// Poses are in the link's frame, as is a plane's. `file`: for paths of meshes.
-Link read_sdf_link(const XmlElement& element, const std::string& file, LeftOut& left_out);
+// Poses are in the link's frame, as is a plane's. `file`: for paths of meshes. `repairs`: inertias that no body can
+// have.
+Link read_sdf_link(const XmlElement& element, const std::string& file, bool repairs, LeftOut& left_out);
 
 }  // namespace rigor

@@ -23,12 +23,13 @@ constexpr double kSdfGravity = 9.8;  // m/s², along -z: the format's own defaul
 constexpr int kDeepest = 16;         // models in models and files in files
 const std::vector<std::string> kSdfJointTypes = {"revolute",  "continuous", "prismatic", "ball",   "universal",
                                                  "revolute2", "fixed",      "screw",     "gearbox"};
-constexpr const char* kOfWorld = "describes the world around; a scene has gravity alone";
-constexpr const char* kProgram = "is a program, which is not run";
+const Reason kOfWorld = no_motion("describes the world around, and nothing of it acts on these bodies");
 
 class SdfReader {
  public:
-  explicit SdfReader(const XmlFile& file) : path_(file.path()) { model_.combine = least_of; }
+  SdfReader(const XmlFile& file, const ImportOptions& options) : path_(file.path()), repairs_(options.repair_inertia) {
+    model_.combine = least_of;
+  }
 
   LinkModel read(const XmlFile& file) {
     const XmlElement root = file.root();
@@ -56,7 +57,9 @@ class SdfReader {
   void read_file(const XmlElement& root, const std::string& scope, const std::string& rename, int depth) {
     if (root.name() != "sdf") root.refuse("found this at the top; allowed: <sdf>");
     version_ = version_of(root);
-    root.check({{"version"}, {"world", "model"}, {{"actor", "moves by a script"}, {"light", kIsSeen}}},
+    root.check({{"version"},
+                {"world", "model"},
+                {{"actor", no_motion("moves by a script, and nothing touches it")}, {"light", kIsSeen}}},
                model_.left_out);
     const auto worlds = root.children("world"), models = root.children("model");
     if (worlds.size() + models.size() != 1)
@@ -81,20 +84,20 @@ class SdfReader {
   void read_world(const XmlElement& world) {
     world.check({{"name"},
                  {"gravity", "model", "include", "joint", "frame"},
-                 {{"physics", "changes no motion: sets an engine's steps, and a case sets its own"},
+                 {{"physics", kOfASolver},
                   {"light", kIsSeen},
                   {"scene", kIsSeen},
                   {"gui", kIsSeen},
                   {"road", kIsSeen},
-                  {"plugin", kProgram},
-                  {"actor", "moves by a script"},
-                  {"state", "is a state during a run; the models' own poses are taken"},
+                  {"plugin", kController},
+                  {"actor", no_motion("moves by a script, and nothing touches it")},
+                  {"state", assumed("is a state during a run; the models' own poses are taken")},
                   {"atmosphere", kOfWorld},
                   {"wind", kOfWorld},
                   {"magnetic_field", kOfWorld},
                   {"spherical_coordinates", kOfWorld},
                   {"audio", kOfWorld},
-                  {"population", "draws models by lot; none is taken"}}},
+                  {"population", lost("draws models by lot; none is taken")}}},
                 model_.left_out);
     model_.name = world.find("name").value_or("world");
     if (const auto gravity = world.child("gravity")) model_.gravity = vector_of(gravity->numbers_of_text(3));
@@ -110,10 +113,10 @@ class SdfReader {
     if (outer.depth > kDeepest) element.refuse(fmt::format("models in models go deeper than {}", kDeepest));
     element.check({{"name", "canonical_link"},
                    {"link", "joint", "frame", "model", "include", "pose", "static", "self_collide"},
-                   {{"plugin", kProgram},
+                   {{"plugin", kController},
                     {"gripper", kController},
-                    {"allow_auto_disable", "changes no motion: lets bodies sleep, and none sleeps here"},
-                    {"enable_wind", kOfWorld}}},
+                    {"allow_auto_disable", no_motion("lets bodies sleep, and none sleeps here")},
+                    {"enable_wind", lost("is wind, which no scene has")}}},
                   model_.left_out);
     if (element.find("placement_frame"))
       element.refuse("placement_frame: is not read; allowed: a pose of the model's own frame");
@@ -142,11 +145,10 @@ class SdfReader {
   }
 
   void read_include(const XmlElement& element, const Scope& outer) {
-    element.check(
-        {{"merge"},
-         {"uri", "name", "pose"},
-         {{"plugin", kProgram}, {"static", "is read of the model itself"}, {"placement_frame", "is not read"}}},
-        model_.left_out);
+    element.check({{"merge"},
+                   {"uri", "name", "pose"},
+                   {{"plugin", kController}, {"static", kSaysNothing}, {"placement_frame", kSaysNothing}}},
+                  model_.left_out);
     for (const char* word : {"static", "placement_frame"}) {
       if (const auto child = element.child(word))
         child->refuse("changes what is included, which is not read; allowed: to say it in the model itself");
@@ -175,7 +177,7 @@ class SdfReader {
   }
 
   void read_link(const XmlElement& element, const Scope& scope) {
-    Link link = read_sdf_link(element, path_, model_.left_out);
+    Link link = read_sdf_link(element, path_, repairs_, model_.left_out);
     const auto pose = element.child("pose");
     frames_.add(scope.name, link.name, sdf_pose(pose, model_.left_out), scope.name, base_of(pose, "__model__"),
                 element);
@@ -227,13 +229,9 @@ class SdfReader {
 
   void read_joint(const XmlElement& element, const std::string& scope) {
     element.check({{"name", "type"},
-                   {"parent", "child", "pose", "axis", "axis2"},
-                   {{"physics", kOfASolver},
-                    {"sensor", kSensor},
-                    {"gearbox_ratio", "belongs to a joint that no scene has"},
-                    {"gearbox_reference_body", "belongs to a joint that no scene has"},
-                    {"thread_pitch", "belongs to a joint that no scene has"},
-                    {"screw_thread_pitch", "belongs to a joint that no scene has"}}},
+                   {"parent", "child", "pose", "axis", "axis2", "gearbox_ratio", "gearbox_reference_body",
+                    "thread_pitch", "screw_thread_pitch"},
+                   {{"physics", kOfASolver}, {"sensor", kSensor}}},
                   model_.left_out);
     const std::string type = element.at("type");
     if (std::find(kSdfJointTypes.begin(), kSdfJointTypes.end(), type) == kSdfJointTypes.end())
@@ -287,23 +285,36 @@ class SdfReader {
     if (row.joint.b == kWorld) element.refuse("the world cannot be the child; allowed: the parent");
     const Vec3 anchor = frames_.pose(scope, name, element).position;
     if (type == "screw" || type == "gearbox")
-      return model_.left_out.add(row.where, fmt::format("its type {}", type),
-                                 "no scene has this joint: the two links come apart");
+      return model_.left_out.add(row.where, fmt::format("a {} joint", type),
+                                 lost("no scene has this joint: the two links come apart"));
     if (type == "fixed") row.joint.type = FixedJoint{};
     if (type == "ball") row.joint.type = BallJoint{anchor};
-    if (type == "universal" || type == "revolute2") {
-      row.joint.type = UniversalJoint{anchor, axis_of(element, "axis", scope, name, version),
-                                      axis_of(element, "axis2", scope, name, version)};
-      for (const char* which : {"axis", "axis2"}) leave_out_sdf_coordinate(element.only(which), model_.left_out);
-    }
+    if (type == "universal" || type == "revolute2") return add_two_axes(element, scope, name, anchor, version, row);
     if (type == "revolute" || type == "continuous")
       row.joint.type = HingeJoint{anchor, axis_of(element, "axis", scope, name, version)};
     if (type == "prismatic") row.joint.type = SliderJoint{axis_of(element, "axis", scope, name, version)};
-    if (free_axis(row.joint)) read_sdf_coordinate(element.only("axis"), type, row.joint, model_.left_out);
+    if (free_axis(row.joint)) read_sdf_coordinate(element.only("axis"), type, row, model_.left_out);
     model_.joints.push_back(std::move(row));
   }
 
+  // Two hinges in series, with a link without mass between them.
+  void add_two_axes(const XmlElement& element, const std::string& scope, const std::string& name, const Vec3& anchor,
+                    int version, LinkJoint row) {
+    Link between{row.joint.name + "/between", row.where, {}};
+    between.pose = frames_.pose(scope, name, element), between.model = model_.links[row.joint.b].model;
+    model_.links.push_back(between);
+    LinkJoint second = row;
+    row.joint.b = second.joint.a = static_cast<int>(model_.links.size()) - 1;
+    row.joint.type = HingeJoint{anchor, axis_of(element, "axis", scope, name, version)};
+    second.joint.type = HingeJoint{anchor, axis_of(element, "axis2", scope, name, version)};
+    second.joint.name += "/axis2";
+    read_sdf_coordinate(element.only("axis"), "revolute", row, model_.left_out);
+    read_sdf_coordinate(element.only("axis2"), "revolute", second, model_.left_out);
+    model_.joints.push_back(std::move(row)), model_.joints.push_back(std::move(second));
+  }
+
   std::string path_;
+  bool repairs_;
   LinkModel model_;
   SdfFrames frames_;
   std::map<std::string, int> links_;
@@ -315,6 +326,6 @@ class SdfReader {
 
 }  // namespace
 
-LinkModel read_sdf(const XmlFile& file) { return SdfReader(file).read(file); }
+LinkModel read_sdf(const XmlFile& file, const ImportOptions& options) { return SdfReader(file, options).read(file); }
 
 }  // namespace rigor

@@ -3,10 +3,11 @@
 // <inertial> has 1 kg and 1 kg m².
 #pragma once
 
+#include "cases/import/import_options.h"
 #include "cases/import/xml.h"
 
 namespace rigor {
 
-LinkModel read_sdf(const XmlFile& file);
+LinkModel read_sdf(const XmlFile& file, const ImportOptions& options);
 
 }  // namespace rigor

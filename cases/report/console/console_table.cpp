@@ -228,6 +228,10 @@ std::string brief_block(const Results& results, const CaseResult& result) {
 std::string answers_text(const Results& results, Detail detail) {
   constexpr std::size_t kMostInBrief = 6;
   std::string text;
+  for (const CaseResult& result : results.cases) {
+    if (const std::string other = not_the_same_robot(result.definition.losses); !other.empty())
+      text += wrapped(fmt::format("{}: {}", result.definition.id, other), 2) + "\n";
+  }
   if (const auto first = recommendation(results))
     text += wrapped(first->text + (first->more.empty() ? "" : " " + first->more), 2) + "\n";
   if (results.cases.size() < 2) return text.empty() ? "" : text + "\n";

@@ -2,6 +2,8 @@
 // change.
 #include "cases/report/json/json_report.h"
 
+#include <fmt/format.h>
+
 #include "cases/analysis/step_needed.h"
 #include "cases/report/json/claims_json.h"
 #include "cases/report/json/comparison_json.h"
@@ -84,6 +86,27 @@ Json gates_json(const CaseResult& result) {
   return gates;
 }
 
+// By kind: what the import of a robot's file left out or assumed.
+Json losses_json(const Case& definition) {
+  Json rows = Json::array();
+  for (const Loss& loss : definition.losses)
+    rows.push_back({{"kind", word_of(loss.kind)},
+                    {"what", loss.what},
+                    {"why", loss.why},
+                    {"count", loss.count},
+                    {"where", loss.places}});
+  return rows;
+}
+
+Json other_robots_json(const Results& results) {
+  Json rows = Json::array();
+  for (const CaseResult& result : results.cases) {
+    if (const std::string other = not_the_same_robot(result.definition.losses); !other.empty())
+      rows.push_back(fmt::format("{}: {}", result.definition.id, other));
+  }
+  return rows;
+}
+
 Json case_json(const Results& results, const CaseResult& result) {
   const Case& definition = result.definition;
   Json json = {{"id", definition.id},
@@ -103,6 +126,7 @@ Json case_json(const Results& results, const CaseResult& result) {
     if (!result.truth->caveat.empty()) json["truth"]["caveat"] = result.truth->caveat;
   }
   if (result.truth) json["largest_kinetic_energy"] = result.truth->largest_kinetic_energy;
+  if (!definition.losses.empty()) json["losses"] = losses_json(definition);
   json["size"] = size_of(definition.scene);
   json["main_error"] = main_error(result);
   json["observed_order"] = observed_orders_json(results, result);
@@ -165,6 +189,7 @@ Json results_json(const Results& results) {
                {"cases", Json::array()},
                {"cells", Json::array()},
                {"stable_dt", Json::array()}};
+  if (const Json others = other_robots_json(results); !others.empty()) json["not_the_same_robot"] = others;
   for (const RunName& run : results.runs) json["engines"].push_back(run_json(run, results.engines));
   for (const CaseResult& result : results.cases) {
     json["cases"].push_back(case_json(results, result));

@@ -242,6 +242,10 @@ std::string matrices(const Results& results, Words words) {
 
 std::string markdown_report(const Results& results) {
   std::string text = "# Rigor: which engine, which step, and why\n\n";
+  for (const CaseResult& result : results.cases) {
+    if (const std::string other = not_the_same_robot(result.definition.losses); !other.empty())
+      text += fmt::format("**{}: {}**\n\n", plain(result.definition.id), plain(other));
+  }
   if (const auto first = recommendation(results))
     text += fmt::format("**{}** {}\n\n", plain(first->text), plain(first->more));
   for (const Finding& found : findings(results)) {

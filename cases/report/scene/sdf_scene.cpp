@@ -178,7 +178,7 @@ class SdfWriter {
   }
 
   void leave_out(const std::string& of, const std::string& what, const std::string& why) {
-    left_out_.add(of, what, why);
+    left_out_.add(of, what, lost(why));
   }
 
   void name_the_rest() {

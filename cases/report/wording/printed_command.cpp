@@ -13,6 +13,11 @@ std::string& named_suite() {
   return folder;
 }
 
+ImportOptions& imports_in_use() {
+  static ImportOptions options;
+  return options;
+}
+
 bool is_plain(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || std::string("_-./:=,@%+").find(c) != std::string::npos;
 }
@@ -33,12 +38,20 @@ std::string pasted(const std::vector<std::string>& words) {
 }
 
 void use_suite(const std::string& folder) { named_suite() = folder; }
+void use_imports(const ImportOptions& options) { imports_in_use() = options; }
 
 std::vector<std::string> where_from(const std::string& run) {
   std::vector<std::string> words;
   const std::string plugin = plugin_of(run.substr(0, run.find_first_of(":,@")));
   if (!plugin.empty()) words.insert(words.end(), {"--plugin", plugin});
   if (!named_suite().empty()) words.insert(words.end(), {"--suite", named_suite()});
+  const ImportOptions& imports = imports_in_use();
+  for (const auto& [is_used, option] : {std::pair{imports.ground, "--ground"},
+                                        {imports.lossy, "--lossy"},
+                                        {imports.repair_inertia, "--repair-inertia"}}) {
+    if (is_used) words.emplace_back(option);
+  }
+  if (!imports.keyframe.empty()) words.insert(words.end(), {"--keyframe", imports.keyframe});
   return words;
 }
 

@@ -10,7 +10,7 @@
 namespace rigor::test {
 
 inline Scene scene_of_file(const std::string& path) {
-  return read_case_text(import_model(path).case_text, path, path, words()).scene;
+  return read_case_text(case_text_of(import_model(path)), path, path, words()).scene;
 }
 
 inline Scene scene_of_text(const std::string& name, const std::string& text) {
@@ -18,9 +18,24 @@ inline Scene scene_of_text(const std::string& name, const std::string& text) {
   return scene_of_file(folder.write(name, text));
 }
 
+// "file:line: element: what: why" for each place.
+inline std::vector<std::string> sentences_of(const std::vector<Loss>& losses) {
+  std::vector<std::string> all;
+  for (const Loss& loss : losses) {
+    for (const std::string& place : loss.places) all.push_back(place + ": " + loss.what + ": " + loss.why);
+  }
+  return all;
+}
+
 inline std::vector<std::string> left_out_of_model(const std::string& name, const std::string& text) {
   const Folder folder;
-  return import_model(folder.write(name, text)).left_out;
+  return sentences_of(import_model(folder.write(name, text)).losses);
+}
+
+// The losses of physics alone.
+inline std::vector<std::string> physics_lost(const std::string& name, const std::string& text) {
+  const Folder folder;
+  return sentences_of(losses_of(import_model(folder.write(name, text)).losses, LossKind::physical));
 }
 
 // The message without the folder's path; "" where it is taken.

@@ -24,6 +24,7 @@ export class Overview {
     this.answer = el("div.answer-first", {});
     replace(
       root,
+      (results.not_the_same_robot ?? []).map((text) => el("p.other-robot", {}, text)),
       this.answer,
       this.hasCurves ? el("div.first", {}, this.chart.root, this.cards.root) : null,
       this.meanings(),

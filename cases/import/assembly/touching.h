@@ -1,4 +1,5 @@
-// Finds the shapes of a model that may touch each other. A scene lists the pairs that never do.
+// Finds the bodies of a model that may touch each other. A scene lists the pairs that never do, and the pairs whose
+// friction or restitution differs from the usual.
 #pragma once
 
 #include <map>
@@ -10,10 +11,14 @@
 
 namespace rigor {
 
-// A body of the scene, and the shape that it was made of.
-struct ShapeSource {
+// A body of the scene, and the shapes that it was made of.
+struct ContactSource {
+  struct Part {
+    int link;
+    const LinkShape* shape;
+  };
   int body = -1, link = -1;
-  const LinkShape* shape = nullptr;
+  std::vector<Part> parts;
 };
 
 class Touching {
@@ -25,9 +30,10 @@ class Touching {
 
   // Whether anything that moves in the model may touch this shape.
   bool can_be_touched(int link, const LinkShape& shape) const;
-  // Every pair of sources that the file keeps apart, without pairs that stand still. Nothing if there are more than
-  // `most`.
-  std::optional<Pairs> kept_apart(const std::vector<ShapeSource>& sources, std::size_t most) const;
+  // Whether a joint holds the two together, or they are parts of one.
+  bool are_joined(const ContactSource& a, const ContactSource& b) const;
+  // Whether the file's filters and exclusions let two shapes touch.
+  bool may_touch(const ContactSource::Part& a, const ContactSource::Part& b) const;
 
  private:
   struct Kind {
@@ -45,9 +51,11 @@ class Touching {
   std::map<Kind, std::set<int>> kinds_;  // with the first two bodies of each kind
   std::vector<int> part_;                // by link; fixed joints make one part of many links
   Pairs joined_;                         // parts that a joint connects
+  Pairs apart_;                          // links that the file keeps apart; kWorld: all that stand still
 };
 
 // Lists the pairs that never touch in the scene, and gives the others their friction and restitution.
-void settle_contacts(LinkModel& model, const Touching& touching, const std::vector<ShapeSource>& sources, Scene& scene);
+void settle_contacts(LinkModel& model, const Touching& touching, const std::vector<ContactSource>& sources,
+                     Scene& scene);
 
 }  // namespace rigor

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace rigor {
+
+// How a robot's file is imported.
+struct ImportOptions {
+  std::string keyframe = "";    // of MJCF, to start from; empty: the model's own state
+  bool lossy = false;           // accept that physics is lost
+  bool repair_inertia = false;  // replace inertias that no body can have
+  bool ground = false;          // add a plane under the lowest point
+};
+
+}  // namespace rigor
