@@ -14,17 +14,35 @@ void append(std::vector<std::string>& calls, const std::vector<std::string>& mor
   calls.insert(calls.end(), more.begin(), more.end());
 }
 
+// The calls of the options that the run names.
+void add_option_calls(const Settings& settings, std::vector<std::string>& calls) {
+  static const std::map<std::string, std::string> flags = {
+      {"implicit-body", "BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY"},
+      {"implicit-world", "BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD"},
+      {"explicit", "BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT"},
+      {"off", "0"}};
+  for (const auto& [option, value] : settings.options) {
+    if (option == "iterations") calls.push_back(fmt::format("world->getSolverInfo().m_numIterations = {};", value));
+    if (option == "erp") calls.push_back(fmt::format("world->getSolverInfo().m_erp = {};", value));
+    if (option == "cfm") calls.push_back(fmt::format("world->getSolverInfo().m_globalCfm = {};", value));
+    if (option == "split-impulse")
+      calls.push_back(fmt::format("world->getSolverInfo().m_splitImpulse = {};", value == "on" ? "true" : "false"));
+    if (option == "gyroscopic") calls.push_back(fmt::format("body->setFlags({});", flags.at(value)));
+  }
+}
+
 // Calls of BulletMultibodyWorld: `body` is a btMultiBody, `world` a btMultiBodyDynamicsWorld.
-std::vector<std::string> multibody_calls(bool is_matched) {
+std::vector<std::string> multibody_calls(const Settings& settings) {
   std::vector<std::string> calls = {
       "btMultiBodyConstraintSolver solver;",
       "auto* world = new btMultiBodyDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration);",
       "body->setCanSleep(false);"};
-  if (is_matched) {
+  if (settings.track == Track::matched) {
     append(calls, {"body->setLinearDamping(0);", "body->setAngularDamping(0);", "body->setMaxCoordinateVelocity(1e30);",
                    "world->getSolverInfo().m_erp = 0;", "world->getSolverInfo().m_erp2 = 0;",
                    "limit->setMaxAppliedImpulse(1e30);  // of each btMultiBodyJointLimitConstraint"});
   }
+  add_option_calls(settings, calls);
   return calls;
 }
 
@@ -41,11 +59,6 @@ void add_matched_defaults(const Settings& settings, std::vector<std::string>& ca
 
 // Calls of BulletWorld: `body` is a btRigidBody.
 std::vector<std::string> rigid_body_calls(const Settings& settings) {
-  static const std::map<std::string, std::string> flags = {
-      {"implicit-body", "BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY"},
-      {"implicit-world", "BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD"},
-      {"explicit", "BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT"},
-      {"off", "0"}};
   std::vector<std::string> calls;
   if (settings.method == "mlcp")
     calls = {"btDantzigSolver dantzig;", "btMLCPSolver solver(&dantzig);", "world->setConstraintSolver(&solver);"};
@@ -60,14 +73,7 @@ std::vector<std::string> rigid_body_calls(const Settings& settings) {
                    "body->setCcdSweptSphereRadius(inner_radius);  // likewise"});
     add_matched_defaults(settings, calls);
   }
-  for (const auto& [option, value] : settings.options) {
-    if (option == "iterations") calls.push_back(fmt::format("world->getSolverInfo().m_numIterations = {};", value));
-    if (option == "erp") calls.push_back(fmt::format("world->getSolverInfo().m_erp = {};", value));
-    if (option == "cfm") calls.push_back(fmt::format("world->getSolverInfo().m_globalCfm = {};", value));
-    if (option == "split-impulse")
-      calls.push_back(fmt::format("world->getSolverInfo().m_splitImpulse = {};", value == "on" ? "true" : "false"));
-    if (option == "gyroscopic") calls.push_back(fmt::format("body->setFlags({});", flags.at(value)));
-  }
+  add_option_calls(settings, calls);
   return calls;
 }
 
@@ -75,7 +81,7 @@ std::vector<std::string> rigid_body_calls(const Settings& settings) {
 
 std::vector<std::string> bullet_calls(const Settings& settings, const std::string& dt) {
   std::vector<std::string> calls =
-      settings.method == "multibody" ? multibody_calls(settings.track == Track::matched) : rigid_body_calls(settings);
+      settings.method == "multibody" ? multibody_calls(settings) : rigid_body_calls(settings);
   calls.push_back(fmt::format("world->stepSimulation({}, 0);  // one step of it, and no substeps", dt));
   return calls;
 }
