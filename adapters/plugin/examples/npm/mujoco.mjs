@@ -112,7 +112,11 @@ serve({
   load(scene, { method, track }) {
     const tree = treeOf(scene), model = mujoco.MjModel.from_xml_string(mjcf(scene, tree, method, track === "matched")), data = new mujoco.MjData(model);
     const ids = idsOf(model, scene), wrench = new mujoco.DoubleBuffer(6);
-    scene.body.forEach(({ fixed }, i) => fixed || data.qvel.set(speedsOf(scene, tree.links[i], i), model.body_dofadr[ids[i]]));
+    // A body on a fixed joint has no speeds, and MuJoCo gives it the address -1.
+    scene.body.forEach(({ fixed }, i) => {
+      const speeds = fixed ? [] : speedsOf(scene, tree.links[i], i);
+      if (speeds.length) data.qvel.set(speeds, model.body_dofadr[ids[i]]);
+    });
     // Of a free body the joint has all; of a jointed one the pose and speed follow from its parents.
     const free = (i) => {
       const q = model.jnt_qposadr[model.body_jntadr[ids[i]]], v = model.body_dofadr[ids[i]];
