@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "adapters/mjcf/compiled_mjcf.h"
+#include "adapters/common/compiled_mjcf.h"
 #include "core/scene/link_model.h"
 
 namespace rigor {

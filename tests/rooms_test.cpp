@@ -46,12 +46,12 @@ bool is_table(const std::string& file) { return std::find(kTables.begin(), kTabl
 // The rooms of adapters/ that are no engine: what adapters share, engines from outside, and injected mistakes.
 const Names kNoEngines = {"", "common", "plugin", "faults"};
 
-// Whether a file of adapters/ may include another. An engine sees itself and common/. Siconos is an engine in another
-// process, so it builds on plugin/, which has the seam of those.
+// Whether a file of adapters/ may include another. An engine sees itself and common/. Siconos, and MuJoCo 3 as the
+// reader of MJCF, run in another process, so they build on plugin/, which has the seam of those.
 bool is_allowed_adapter(const std::string& from, const std::string& to) {
   const bool is_engine = std::find(kNoEngines.begin(), kNoEngines.end(), from) == kNoEngines.end();
   if (from == to || to == "common") return true;
-  if (from == "siconos") return to == "plugin";
+  if (from == "siconos" || from == "mjcf") return to == "plugin";
   return !is_engine && from != "common" && to.empty();
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/mjcf/compiled_mjcf.h"
+#include "adapters/common/compiled_mjcf.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/engine/engine.h"
 #include "core/scene/left_out.h"

@@ -1,7 +1,7 @@
 // The state of a conversion of an MJCF model to links, joints and shapes, which its parts share.
 #pragma once
 
-#include "adapters/mjcf/compiled_mjcf.h"
+#include "adapters/common/compiled_mjcf.h"
 #include "core/scene/link_model.h"
 
 namespace rigor {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "adapters/mjcf/compiled_mjcf.h"
+#include "adapters/common/compiled_mjcf.h"
 
 namespace rigor {
 

@@ -1,7 +1,7 @@
 // Reads MJCF by MuJoCo's own parser.
 #pragma once
 
-#include "adapters/mjcf/compiled_mjcf.h"
+#include "adapters/common/compiled_mjcf.h"
 
 namespace rigor {
 

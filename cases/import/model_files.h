@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "adapters/mjcf/compiled_mjcf.h"
+#include "adapters/common/compiled_mjcf.h"
 #include "cases/import/xml.h"
 
 namespace rigor {

@@ -1,4 +1,4 @@
-#include "adapters/mjcf/compiled_mjcf.h"
+#include "adapters/common/compiled_mjcf.h"
 
 #include <fmt/format.h>
 
