@@ -147,73 +147,75 @@ function diagnosisLine(one, gates) {
   return [el("p.fine", {}, "Which known mistake the error looks like: ", commands.flat())];
 }
 
+const gateMarks = { held: ["good", "✓"], failed: ["bad", "✕"], "not checked": ["none", "–"] };
+
+// How many answers of a gate are of each kind, and in words.
+function gateCounts(gate) {
+  const count = (answer) => gate.answers.filter((a) => a.answer === answer).length;
+  const failed = count("failed"),
+    unchecked = count("not checked"),
+    unrecorded = count("not recorded"),
+    qualified = gate.answers.filter((a) => a.caveat).length;
+  const summary = [
+    `${count("held")} held`,
+    qualified ? `${qualified} of them by runs stepped in part by less than their method` : "",
+    failed ? `${failed} failed` : "",
+    unchecked ? `${unchecked} not checked` : "",
+    unrecorded ? `${unrecorded} not recorded` : "",
+  ];
+  return { failed, unchecked, qualified, summary: summary.filter(Boolean).join(", ") };
+}
+
+function gateRow({ results, one }, gate, answer) {
+  const [kind, sign] = gateMarks[answer.answer] ?? ["none", "?"],
+    value = metricOf(cellOf(one, answer.engine, answer.dt), gate.metric);
+  return el(
+    "tr",
+    {},
+    el("th", { scope: "row" }, answer.engine || "–"),
+    el("td", {}, answer.dt || "all"),
+    el("td", {}, value === null ? "" : quantity(value, results.units[gate.metric])),
+    el(`td.is-${kind}`, {}, el("span.word", {}, `${sign} ${answer.answer}`)),
+    el("td.text", {}, answer.caveat ? `${answer.text}, but ${answer.caveat}` : answer.text),
+  );
+}
+
+function gateDetails(context, gate) {
+  const { failed, unchecked, qualified, summary } = gateCounts(gate);
+  const [kind, sign] = failed ? ["bad", "✕"] : unchecked ? ["none", "–"] : ["good", "✓"];
+  return el(
+    "details.gate",
+    { open: failed + qualified > 0 },
+    el(
+      "summary",
+      {},
+      el(`span.badge.is-${kind}`, {}, sign),
+      el("b", {}, words(gate.metric)),
+      " ",
+      limitText(gate, context.results.units[gate.metric] ?? ""),
+      el("span.fine", {}, ` ${gate.kind}`),
+      el("span.fine", {}, ` ${summary}`),
+      el("span.because", {}, gate.because),
+    ),
+    el(
+      "div.scroll",
+      { tabindex: 0 },
+      el(
+        "table.plain",
+        {},
+        tableHead("run", "dt", "value", "", "in words"),
+        el("tbody", {}, gate.answers.map((answer) => gateRow(context, gate, answer))),
+      ),
+    ),
+    el("p.fine", {}, gate.where),
+  );
+}
+
 export function gatesTable({ results, one }) {
   // One of the family's that met no cell of this case says nothing about it.
   const gates = one.gates.filter((gate) => gate.answers.length);
   if (!gates.length) return el("p.fine", {}, "This case has no gates.");
-  const marks = { held: ["good", "✓"], failed: ["bad", "✕"], "not checked": ["none", "–"] };
-  return el(
-    "div.gates",
-    {},
-    diagnosisLine(one, gates),
-    gates.map((gate) => {
-      const count = (answer) => gate.answers.filter((a) => a.answer === answer).length;
-      const failed = count("failed"),
-        unchecked = count("not checked"),
-        unrecorded = count("not recorded"),
-        qualified = gate.answers.filter((a) => a.caveat).length;
-      const summary = [
-        `${count("held")} held`,
-        qualified ? `${qualified} of them by runs stepped in part by less than their method` : "",
-        failed ? `${failed} failed` : "",
-        unchecked ? `${unchecked} not checked` : "",
-        unrecorded ? `${unrecorded} not recorded` : "",
-      ]
-        .filter(Boolean)
-        .join(", ");
-      return el(
-        "details.gate",
-        { open: failed + qualified > 0 },
-        el(
-          "summary",
-          {},
-          el(`span.badge.is-${failed ? "bad" : unchecked ? "none" : "good"}`, {}, failed ? "✕" : unchecked ? "–" : "✓"),
-          el("b", {}, words(gate.metric)),
-          " ",
-          limitText(gate, results.units[gate.metric] ?? ""),
-          el("span.fine", {}, ` ${gate.kind}`),
-          el("span.fine", {}, ` ${summary}`),
-          el("span.because", {}, gate.because),
-        ),
-        el(
-          "div.scroll", { tabindex: 0 },
-          el(
-            "table.plain",
-            {},
-            tableHead("run", "dt", "value", "", "in words"),
-            el(
-              "tbody",
-              {},
-              gate.answers.map((a) => {
-                const [kind, sign] = marks[a.answer] ?? ["none", "?"],
-                  value = metricOf(cellOf(one, a.engine, a.dt), gate.metric);
-                return el(
-                  "tr",
-                  {},
-                  el("th", { scope: "row" }, a.engine || "–"),
-                  el("td", {}, a.dt || "all"),
-                  el("td", {}, value === null ? "" : quantity(value, results.units[gate.metric])),
-                  el(`td.is-${kind}`, {}, el("span.word", {}, `${sign} ${a.answer}`)),
-                  el("td.text", {}, a.caveat ? `${a.text}, but ${a.caveat}` : a.text),
-                );
-              }),
-            ),
-          ),
-        ),
-        el("p.fine", {}, gate.where),
-      );
-    }),
-  );
+  return el("div.gates", {}, diagnosisLine(one, gates), gates.map((gate) => gateDetails({ results, one }, gate)));
 }
 
 export function settingsTable({ one, dt, results }) {

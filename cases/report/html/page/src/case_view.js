@@ -1,8 +1,8 @@
 // One case: the truth, the runs in motion, their series over time, and the summary over all step sizes.
 import { asideOf, cellOf, dtOf, judgement, hasNumbers } from "./data.js";
 import { el, replace } from "./dom.js";
-import { withFormulas } from "./formulas.js";
-import { digits, quantity } from "./format.js";
+import { quantity } from "./format.js";
+import { caseHeading } from "./case_heading.js";
 import { convergence, stabilityMap, workPrecision } from "./charts.js";
 import { gatesTable, numbersTable, sceneFile, settingsTable } from "./case_tables.js";
 import { frictionFan } from "./friction_chart.js";
@@ -10,13 +10,11 @@ import { loadCase } from "./playback_data.js";
 import { cheapest, curvesOfCase, isCoreMethod, isExternal, isTimed } from "./frontier.js";
 import { FrontierChart, lengthOrAngle } from "./frontier_chart.js";
 import { Player } from "./player.js";
-import { questionOf } from "./question.js";
 import { commands, repairs } from "./repair.js";
-import { sceneSketch } from "./scene_sketch.js";
 import { schemeSplit } from "./scheme_tables.js";
 import { Stage } from "./stage.js";
 import { TimePlots } from "./time_plots.js";
-import { address, onChange, openCase, set, state } from "./state.js";
+import { onChange, openCase, set, state } from "./state.js";
 
 const shownAtFirst = 6;
 
@@ -42,7 +40,7 @@ export class CaseView {
     });
     (this.across = el("div.across")), (this.fan = el("div.fan"));
     this.steps = el("div.segments", { role: "group", "aria-label": "Step size" });
-    replace(root, this.heading(), this.bar(), el("div.motion", {}, this.stageBox, el("div.beside-motion", {}, this.chart.root, this.plotsBox)), this.across);
+    replace(root, caseHeading(this), this.bar(), el("div.motion", {}, this.stageBox, el("div.beside-motion", {}, this.chart.root, this.plotsBox)), this.across);
     this.drawAnswer();
     this.stop = onChange((changed) => this.follow(changed));
     this.load();
@@ -68,76 +66,6 @@ export class CaseView {
     const own = this.runnable.filter((e) => e.core).sort((a, b) => error(a) - error(b));
     const chosen = new Set([...foreign, ...own].slice(0, Math.max(shownAtFirst, foreign.length)).map((e) => e.name));
     return this.runnable.filter((e) => chosen.has(e.name));
-  }
-
-  heading() {
-    const { one } = this,
-      { truth } = one;
-    const list = this.results.cases,
-      at = list.indexOf(one);
-    const step = (to, sign, label) =>
-      list[to]
-        ? el(
-            "a.quiet",
-            {
-              href: address({ case: list[to].id, time: 0, zoom: null, engines: null }),
-              title: list[to].id,
-              "aria-label": label,
-              onclick: (event) => (event.preventDefault(), this.goTo(to)),
-            },
-            sign,
-          )
-        : el("span.quiet.is-off", {}, sign);
-    let truthText = "No truth: only stability and what is conserved are judged.";
-    if (truth.kind !== "none") {
-      truthText =
-        truth.horizon === undefined
-          ? `Truth: ${truth.kind}, not found.`
-          : truth.horizon >= one.duration
-            ? `Truth: ${truth.kind}; its own error is at most ${digits(truth.error_at_end, 2)} m or rad over the whole ${digits(one.duration)} s.`
-            : `Truth: ${truth.kind}; known to ${quantity(truth.horizon_tolerance, "m")} up to its horizon at ${truth.horizon.toFixed(1)} s of ${digits(one.duration)} s, and compared only so far: beyond it the motion is too sensitive.`;
-    }
-    if (truth.caveat) truthText += ` ${truth.caveat}`;
-    const provenanceText = truth.provenance ? ` It is ${truth.provenance}.` : "";
-    return el(
-      "section.heading",
-      {},
-      el(
-        "p.path",
-        {},
-        el(
-          "a",
-          {
-            href: address({ case: "" }),
-            onclick: (event) => (event.preventDefault(), set({ case: "", time: 0, zoom: null }, { push: true })),
-          },
-          "All cases",
-        ),
-        " / ",
-        one.id,
-        el("span.steps", {}, step(at - 1, "‹", "The case before"), step(at + 1, "›", "The next case")),
-      ),
-      el("div.beside-sketch", {}, el("div", {}, el("p.question", {}, one.title || one.id), el("p.asks", {}, withFormulas(questionOf(one), one.scene)), this.answer), sceneSketch(one.scene)),
-      one.error ? el("p.error", {}, one.error) : null,
-      el(
-        "details.about-truth",
-        {},
-        el("summary", {}, truthText),
-        el("p.truth", {}, provenanceText, one.source ? el("span.source", {}, ` Source: ${one.source}.`) : null),
-      ),
-      one.explanations.length
-        ? el(
-            "details.why",
-            { open: true },
-            el("summary", {}, el("h2", {}, "Why")),
-            el(
-              "ul.findings",
-              {},
-              one.explanations.map((text) => el("li", {}, withFormulas(text, one.scene))),
-            ),
-          )
-        : null,
-    );
   }
 
   // The engine and step to take in this case, and who fails at the step shown.

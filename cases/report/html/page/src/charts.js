@@ -39,14 +39,52 @@ function slopes(x, y, [finest, coarsest], [least, most]) {
   });
 }
 
+const logLogFrame = { width: 560, height: 340, left: 62, right: 12, top: 12, bottom: 44 };
+
+// The grid, the ticks and the titles of two logarithmic axes.
+function logLogAxes(x, y, { xLabel, yLabel, xTicks, zeroUpTo }) {
+  const { width, height, left, right, top, bottom } = logLogFrame;
+  return [
+    (xTicks ?? x.ticks).map(([value, text]) => [
+      svg("line", { class: "grid", x1: x.at(value), x2: x.at(value), y1: top, y2: height - bottom }),
+      svg("text", { x: x.at(value), y: height - bottom + 16, "text-anchor": "middle" }, text),
+    ]),
+    y.ticks.map(([value, text]) => [
+      svg("line", { class: "grid", x1: left, x2: width - right, y1: y.at(value), y2: y.at(value) }),
+      svg("text", { x: left - 6, y: y.at(value) + 4, "text-anchor": "end" }, value <= zeroUpTo ? "0" : text),
+    ]),
+    svg("text", { class: "axis", x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle" }, xLabel),
+    svg(
+      "text",
+      { class: "axis", x: 14, y: height / 2, transform: `rotate(-90 14 ${height / 2})`, "text-anchor": "middle" },
+      yLabel,
+    ),
+  ].flat(2);
+}
+
+function logLogLine(x, y, { engine, points }) {
+  const places = points.map((p) => `${x.at(p.x).toFixed(1)},${y.at(p.y).toFixed(1)}`).join(" ");
+  return [
+    svg("polyline", {
+      points: places,
+      fill: "none",
+      stroke: ink(engine),
+      "stroke-width": 1.6,
+      "stroke-dasharray": engine.dash?.join(" "),
+    }),
+    points.map((p) =>
+      svg(
+        "circle",
+        { cx: x.at(p.x), cy: y.at(p.y), r: 4, fill: ink(engine), class: "pick", onclick: () => set({ dt: p.dt }) },
+        svg("title", {}, `${engine.name}, dt = ${p.dt} s: ${p.text}`),
+      ),
+    ),
+  ];
+}
+
 // Lines through points (x, y) on two logarithmic axes.
 function logLog(lines, { xLabel, yLabel, xTicks, label, withSlopes }) {
-  const width = 560,
-    height = 340,
-    left = 62,
-    right = 12,
-    top = 12,
-    bottom = 44;
+  const { width, height, left, right, top, bottom } = logLogFrame;
   const xs = bounds(lines.flatMap((l) => l.points.map((p) => p.x))),
     ys = bounds(lines.flatMap((l) => l.points.map((p) => p.y)));
   if (xTicks)
@@ -55,50 +93,9 @@ function logLog(lines, { xLabel, yLabel, xTicks, label, withSlopes }) {
   const x = decades(xs[0], xs[1], left, width - right),
     y = decades(floor, ys[1], height - bottom, top);
   const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "chart", role: "img", "aria-label": label });
-  for (const [value, text] of xTicks ?? x.ticks) {
-    add(root, [
-      svg("line", { class: "grid", x1: x.at(value), x2: x.at(value), y1: top, y2: height - bottom }),
-      svg("text", { x: x.at(value), y: height - bottom + 16, "text-anchor": "middle" }, text),
-    ]);
-  }
-  for (const [value, text] of y.ticks) {
-    add(root, [
-      svg("line", { class: "grid", x1: left, x2: width - right, y1: y.at(value), y2: y.at(value) }),
-      svg(
-        "text",
-        { x: left - 6, y: y.at(value) + 4, "text-anchor": "end" },
-        floor < ys[0] && value <= floor * 1.01 ? "0" : text,
-      ),
-    ]);
-  }
-  add(root, [
-    svg("text", { class: "axis", x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle" }, xLabel),
-    svg(
-      "text",
-      { class: "axis", x: 14, y: height / 2, transform: `rotate(-90 14 ${height / 2})`, "text-anchor": "middle" },
-      yLabel,
-    ),
-  ]);
+  add(root, logLogAxes(x, y, { xLabel, yLabel, xTicks, zeroUpTo: floor < ys[0] ? floor * 1.01 : 0 }));
   if (withSlopes) add(root, slopes(x, y, [xTicks.at(-1)[0], xTicks[0][0]], [floor, ys[1]]));
-  for (const { engine, points } of lines) {
-    const places = points.map((p) => `${x.at(p.x).toFixed(1)},${y.at(p.y).toFixed(1)}`).join(" ");
-    add(root, [
-      svg("polyline", {
-        points: places,
-        fill: "none",
-        stroke: ink(engine),
-        "stroke-width": 1.6,
-        "stroke-dasharray": engine.dash?.join(" "),
-      }),
-      points.map((p) =>
-        svg(
-          "circle",
-          { cx: x.at(p.x), cy: y.at(p.y), r: 4, fill: ink(engine), class: "pick", onclick: () => set({ dt: p.dt }) },
-          svg("title", {}, `${engine.name}, dt = ${p.dt} s: ${p.text}`),
-        ),
-      ),
-    ]);
-  }
+  for (const line of lines) add(root, logLogLine(x, y, line));
   return root;
 }
 
@@ -184,6 +181,45 @@ export function workPrecision(context) {
   });
 }
 
+// The runs of an engine in this case, each a mark at its step.
+const stabilityMarks = (one, engine, x, middle) =>
+  one.cells
+    .filter((c) => c.engine === engine.name)
+    .map((cell) => {
+      const verdict = judgement(cell);
+      return svg(
+        "g",
+        { class: `dot is-${verdict.kind}`, transform: `translate(${x.at(cell.dt_seconds)} ${middle})` },
+        svg("circle", { r: 6.5 }),
+        svg("text", { y: 3.5, "text-anchor": "middle" }, verdict.sign),
+        svg("title", {}, `${engine.name}, dt = ${cell.dt} s: ${verdict.word}`),
+      );
+    });
+
+function stabilityRow(one, engine, { x, left, y, height, isShown }) {
+  const stable = one.stable.get(engine.name),
+    middle = y + height / 2,
+    known = isNumber(stable.dt),
+    end = known ? x.at(stable.dt) : left,
+    hasBar = known && !stable.is_floor;
+  const text = known ? stableText(stable) : stable.status === "unsupported" ? "" : stable.status;
+  const bar = { x: left, y: y + 4, width: Math.max(0, end - left), height: height - 8, rx: 3, fill: ink(engine), opacity: 0.3 };
+  return [
+    svg("text", { x: left - 10, y: middle + 4, "text-anchor": "end", class: isShown ? "strong" : "" }, engine.name),
+    hasBar ? svg("rect", bar) : null,
+    hasBar && !stable.is_cap
+      ? svg("line", { x1: end, x2: end, y1: y + 2, y2: y + height - 2, stroke: ink(engine), "stroke-width": 2.5 })
+      : null,
+    svg(
+      "text",
+      { x: Math.max(end, left) + 8, y: middle + 4, class: "strong" },
+      text,
+      svg("title", {}, stable.reason || ""),
+    ),
+    stabilityMarks(one, engine, x, middle),
+  ];
+}
+
 // A bar an engine, up to its largest stable dt; on it the runs there were.
 export function stabilityMap({ one, shown, results }) {
   const engines = results.engines.filter(
@@ -199,65 +235,17 @@ export function stabilityMap({ one, shown, results }) {
     top = 26,
     height = top + row * engines.length + 12;
   const x = decades(Math.min(...all) / 2, Math.max(...all) * 1.6, left, width - right);
-  const root = svg("svg", {
-    viewBox: `0 0 ${width} ${height}`,
-    class: "chart stability",
-    role: "img",
-    "aria-label": "Largest stable step of each engine",
-  });
-  for (const dt of [...one.dt.map((d) => [d.seconds, d.text])]) {
+  const label = "Largest stable step of each engine";
+  const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "chart stability", role: "img", "aria-label": label });
+  for (const dt of one.dt) {
     add(root, [
-      svg("line", { class: "grid", x1: x.at(dt[0]), x2: x.at(dt[0]), y1: top - 6, y2: height - 8 }),
-      svg("text", { x: x.at(dt[0]), y: 14, "text-anchor": "middle" }, dt[1]),
+      svg("line", { class: "grid", x1: x.at(dt.seconds), x2: x.at(dt.seconds), y1: top - 6, y2: height - 8 }),
+      svg("text", { x: x.at(dt.seconds), y: 14, "text-anchor": "middle" }, dt.text),
     ]);
   }
-  engines.forEach((engine, i) => {
-    const y = top + i * row,
-      stable = one.stable.get(engine.name),
-      middle = y + row / 2;
-    const known = isNumber(stable.dt),
-      end = known ? x.at(stable.dt) : left;
-    const text = known ? stableText(stable) : stable.status === "unsupported" ? "" : stable.status;
-    add(root, [
-      svg(
-        "text",
-        { x: left - 10, y: middle + 4, "text-anchor": "end", class: shown.includes(engine) ? "strong" : "" },
-        engine.name,
-      ),
-      known && !stable.is_floor
-        ? svg("rect", {
-            x: left,
-            y: y + 4,
-            width: Math.max(0, end - left),
-            height: row - 8,
-            rx: 3,
-            fill: ink(engine),
-            opacity: 0.3,
-          })
-        : null,
-      known && !stable.is_floor && !stable.is_cap
-        ? svg("line", { x1: end, x2: end, y1: y + 2, y2: y + row - 2, stroke: ink(engine), "stroke-width": 2.5 })
-        : null,
-      svg(
-        "text",
-        { x: Math.max(end, left) + 8, y: middle + 4, class: "strong" },
-        text,
-        svg("title", {}, stable.reason || ""),
-      ),
-      one.cells
-        .filter((c) => c.engine === engine.name)
-        .map((cell) => {
-          const verdict = judgement(cell);
-          return svg(
-            "g",
-            { class: `dot is-${verdict.kind}`, transform: `translate(${x.at(cell.dt_seconds)} ${middle})` },
-            svg("circle", { r: 6.5 }),
-            svg("text", { y: 3.5, "text-anchor": "middle" }, verdict.sign),
-            svg("title", {}, `${engine.name}, dt = ${cell.dt} s: ${verdict.word}`),
-          );
-        }),
-    ]);
-  });
+  engines.forEach((engine, i) =>
+    add(root, stabilityRow(one, engine, { x, left, y: top + i * row, height: row, isShown: shown.includes(engine) })),
+  );
   const reasons = new Set(engines.map((e) => one.stable.get(e.name)).filter((s) => !isNumber(s.dt)).map((s) => s.reason));
   const rows = engines.map((e) => [e.name, one.stable.get(e.name).dt, one.stable.get(e.name).status]);
   return [

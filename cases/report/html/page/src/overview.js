@@ -9,6 +9,38 @@ import { Matrix, shownAside, sortings } from "./matrix.js";
 import { problems } from "./problems.js";
 import { onChange, set, state } from "./state.js";
 
+const verdictFilters = [
+  ["", "any"],
+  ["bad", "something fails"],
+  ["drift", "something drifts"],
+  ["good", "all stable"],
+];
+
+const select = (label, value, options, onchange) =>
+  el(
+    "label.control",
+    {},
+    el("span", {}, label),
+    el(
+      "select",
+      { onchange: (event) => onchange(event.target.value) },
+      options.map(([key, text]) => el("option", { value: key, selected: key === value }, text)),
+    ),
+  );
+
+const nameFilter = () =>
+  el(
+    "label.control",
+    {},
+    el("span", {}, "Cases and engines"),
+    el("input", {
+      type: "search",
+      placeholder: "filter by name",
+      value: state.filter,
+      oninput: (event) => set({ filter: event.target.value.toLowerCase() }),
+    }),
+  );
+
 export class Overview {
   constructor(results, root) {
     (this.results = results), (this.root = root);
@@ -149,68 +181,26 @@ export class Overview {
   }
 
   controls() {
-    const select = (label, value, options, onchange) =>
-      el(
-        "label.control",
-        {},
-        el("span", {}, label),
-        el(
-          "select",
-          { onchange: (event) => onchange(event.target.value) },
-          options.map(([key, text]) => el("option", { value: key, selected: key === value }, text)),
-        ),
-      );
     const measured = this.results.metrics
       .map((m) => m.name)
       .filter((name) => this.results.cells.some((c) => metricOf(c, name) !== null));
     const tolerances = [...new Set([1e-4, 1e-3, 1e-2, 1e-1, state.tolerance])].sort((a, b) => a - b);
+    const dts = this.results.dts.map((dt) => [dt.text, `dt = ${dt.text} s`]);
+    const shows = [...Object.entries(shownAside), ...measured.map((name) => [name, words(name)])];
+    const bounds = tolerances.map((t) => [String(t), `${quantity(t, "m")} or ${quantity(t, "rad")}`]);
+    const familyNames = families(this.results).map((f) => [f, f]);
     return el(
       "div.controls",
       {},
-      select(
-        "Step",
-        this.dt.text,
-        this.results.dts.map((dt) => [dt.text, `dt = ${dt.text} s`]),
-        (dt) => set({ dt }),
-      ),
-      select(
-        "Show",
-        state.show,
-        [...Object.entries(shownAside), ...measured.map((name) => [name, words(name)])],
-        (show) => set({ show }),
-      ),
-      select(
-        "Tolerance",
-        String(state.tolerance),
-        tolerances.map((t) => [String(t), `${quantity(t, "m")} or ${quantity(t, "rad")}`]),
-        (t) => set({ tolerance: Number(t) }),
-      ),
-      families(this.results).length > 1
-        ? select(
-            "Family",
-            this.family,
-            [["", "all families"], ...families(this.results).map((f) => [f, f])],
-            (family) => set({ family }),
-          )
+      select("Step", this.dt.text, dts, (dt) => set({ dt })),
+      select("Show", state.show, shows, (show) => set({ show })),
+      select("Tolerance", String(state.tolerance), bounds, (t) => set({ tolerance: Number(t) })),
+      familyNames.length > 1
+        ? select("Family", this.family, [["", "all families"], ...familyNames], (family) => set({ family }))
         : null,
       select("Sort", state.sort, Object.entries(sortings), (sort) => set({ sort })),
-      select(
-        "Verdict",
-        state.verdict,
-        [["", "any"], ["bad", "something fails"], ["drift", "something drifts"], ["good", "all stable"]],
-        (verdict) => set({ verdict }),
-      ),
-      el(
-        "label.control",
-        {},
-        el("span", {}, "Cases and engines"),
-        el("input", {
-          type: "search",
-          placeholder: "filter by name",
-          value: state.filter,
-          oninput: (event) => set({ filter: event.target.value.toLowerCase() }),
-        }),
-      ),
+      select("Verdict", state.verdict, verdictFilters, (verdict) => set({ verdict })),
+      nameFilter(),
     );
   }
 

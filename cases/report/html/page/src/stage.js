@@ -46,6 +46,16 @@ export class Stage {
   }
 
   build() {
+    this.openView();
+    moveByHand(this.camera, this.surface, () => this.invalidate());
+    this.panes = el("div.panes");
+    this.buildControls();
+    this.notes = el("p.fine.stage-note");
+    replace(this.root, el("div.surface", {}, this.surface, this.panes), this.transportBar(), this.flagBar(), this.notes);
+  }
+
+  // With WebGL, or with lines on a canvas where the browser lacks it.
+  openView() {
     const context = {
       shapes: this.shapes,
       springs: springsOf(this.one.scene),
@@ -68,24 +78,51 @@ export class Stage {
         : "This browser has no WebGL, so the picture is drawn with lines.";
     }
     this.surface.dataset.kind = this.view.kind;
-    moveByHand(this.camera, this.surface, () => this.invalidate());
-    this.panes = el("div.panes");
-    (this.clock = el("output.clock")),
-      (this.slider = el("input", {
-        type: "range",
-        min: 0,
-        max: this.one.duration,
-        step: "any",
-        value: 0,
-        "aria-label": "Time",
-        oninput: (event) => this.player.seek(Number(event.target.value)),
-      }));
+  }
+
+  buildControls() {
+    this.clock = el("output.clock");
+    this.slider = el("input", {
+      type: "range",
+      min: 0,
+      max: this.one.duration,
+      step: "any",
+      value: 0,
+      "aria-label": "Time",
+      oninput: (event) => this.player.seek(Number(event.target.value)),
+    });
     this.play = el("button.play", { type: "button", onclick: () => this.player.toggle(), title: "space" });
     this.speed = el("button.quiet", {
       type: "button",
       title: "faster; with shift slower (+ −)",
       onclick: (event) => this.player.faster(event.shiftKey ? 0.5 : this.player.speed >= 16 ? 1 / 64 : 2),
     });
+    this.sideButton = el("button.quiet", {
+      type: "button",
+      title: "o, s",
+      onclick: () => set({ layout: state.layout === "side" ? "overlay" : "side" }),
+    });
+    this.failures = el("div.failures", { "aria-hidden": "true" });
+  }
+
+  // Play, step, the line of time and the clock.
+  transportBar() {
+    const step = (by, sign, title) =>
+      el("button.quiet", { type: "button", title, "aria-label": title, onclick: () => this.player.step(by) }, sign);
+    return el(
+      "div.transport",
+      {},
+      step(-1, "‹", "one step back"),
+      this.play,
+      step(1, "›", "one step on"),
+      el("div.timeline", {}, this.slider, this.failures),
+      this.clock,
+      this.speed,
+    );
+  }
+
+  // The buttons that show and hide parts of the picture.
+  flagBar() {
     const flag = (name, label) =>
       el(
         "button.quiet",
@@ -94,36 +131,12 @@ export class Stage {
       );
     this.flagButtons = [flag("truth", "truth"), flag("trails", "trails"), flag("contacts", "contacts")];
     if (this.joints.length) this.flagButtons.push(flag("joints", "joints"));
-    this.sideButton = el("button.quiet", {
-      type: "button",
-      title: "o, s",
-      onclick: () => set({ layout: state.layout === "side" ? "overlay" : "side" }),
-    });
-    const step = (by, sign, title) =>
-      el("button.quiet", { type: "button", title, "aria-label": title, onclick: () => this.player.step(by) }, sign);
-    this.failures = el("div.failures", { "aria-hidden": "true" });
-    this.notes = el("p.fine.stage-note");
-    replace(
-      this.root,
-      el("div.surface", {}, this.surface, this.panes),
-      el(
-        "div.transport",
-        {},
-        step(-1, "‹", "one step back"),
-        this.play,
-        step(1, "›", "one step on"),
-        el("div.timeline", {}, this.slider, this.failures),
-        this.clock,
-        this.speed,
-      ),
-      el(
-        "div.flags",
-        {},
-        this.sideButton,
-        this.flagButtons,
-        el("button.quiet", { type: "button", title: "f", onclick: () => this.frameAll() }, "whole scene"),
-      ),
-      this.notes,
+    return el(
+      "div.flags",
+      {},
+      this.sideButton,
+      this.flagButtons,
+      el("button.quiet", { type: "button", title: "f", onclick: () => this.frameAll() }, "whole scene"),
     );
   }
 

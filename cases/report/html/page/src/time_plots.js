@@ -157,8 +157,6 @@ export class TimePlots {
       tables,
       tables.map((t) => t.slice(1).map(() => 1)),
     );
-    const ink = colour("--ink-2"),
-      grid = colour("--line");
     const readouts = el("div.readouts"),
       holder = el("div.plot-holder");
     const figure = el(
@@ -174,13 +172,32 @@ export class TimePlots {
       ),
       holder,
     );
+    const chart = new uPlot(this.chartOptions(lines, scale), joined, holder);
+    const playhead = el("div.playhead");
+    chart.over.append(playhead);
+    followTouch(chart, (time) => this.player.seek(time));
+    const plot = { name, chart, holder, playhead, readouts, lines, unit, scale };
+    this.plots.push(plot);
+    return figure;
+  }
+
+  // Settings of uPlot for the truth (no engine) and the runs as lines over time.
+  chartOptions(lines, scale) {
     const axis = {
-      stroke: ink,
-      grid: { stroke: grid, width: 1 },
+      stroke: colour("--ink-2"),
+      grid: { stroke: colour("--line"), width: 1 },
       ticks: { show: false },
       font: "11px system-ui, sans-serif",
     };
-    const options = {
+    const truthLine = { stroke: colour("--truth"), width: 3.5, spanGaps: true, points: { show: false } };
+    const runLine = (engine) => ({
+      stroke: engine.hex[isDark() ? 1 : 0],
+      width: 1.5,
+      dash: engine.dash ?? undefined,
+      spanGaps: true,
+      points: { show: false },
+    });
+    return {
       width: 400,
       height,
       legend: { show: false },
@@ -197,33 +214,13 @@ export class TimePlots {
         { ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${Number(t.toPrecision(6))} s`) },
         { ...axis, size: 60, splits: scale.splits, values: (u, ticks) => ticks.map(scale.tick) },
       ],
-      series: [
-        {},
-        ...lines.map(([engine]) =>
-          engine
-            ? {
-                stroke: engine.hex[isDark() ? 1 : 0],
-                width: 1.5,
-                dash: engine.dash ?? undefined,
-                spanGaps: true,
-                points: { show: false },
-              }
-            : { stroke: colour("--truth"), width: 3.5, spanGaps: true, points: { show: false } },
-        ),
-      ],
+      series: [{}, ...lines.map(([engine]) => (engine ? runLine(engine) : truthLine))],
       hooks: {
         setCursor: [(u) => this.hover(u)],
         setSelect: [(u) => this.zoomed(u)],
         draw: [(u) => this.markFailures(u), () => this.movePlayheads()],
       },
     };
-    const chart = new uPlot(options, joined, holder);
-    const playhead = el("div.playhead");
-    chart.over.append(playhead);
-    followTouch(chart, (time) => this.player.seek(time));
-    const plot = { name, chart, holder, playhead, readouts, lines, unit, scale };
-    this.plots.push(plot);
-    return figure;
   }
 
   // A dashed line where a shown run blew up or collapsed.
