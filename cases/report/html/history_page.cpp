@@ -105,9 +105,8 @@ std::string history_page(const std::vector<HistoryEntry>& history, const std::ve
   text += fmt::format(
       "<p>{} entries, from {} ({}) to {} ({}). {} of {} cells changed; they come first. Costs are those measured on "
       "{}.</p>\n"
-      "<p class=\"faint\">A red mark begins a new level: of an error, which repeats bit for bit, any change; of a "
-      "cost, one "
-      "beyond its noise. Scales are logarithmic.</p>\n",
+      "<p class=\"faint\">A red mark begins a new level. An error repeats bit for bit, so any change counts. A "
+      "cost must change by more than its noise. Scales are logarithmic.</p>\n",
       history.size(), escaped(history.front().commit), history.front().date.substr(0, 10),
       escaped(history.back().commit), history.back().date.substr(0, 10), changed, cells.size(),
       escaped(history.back().machine));

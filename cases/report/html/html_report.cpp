@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "adapters/engines.h"
-#include "cases/report/json/packing.h"
 #include "cases/report/html/page_bundle.h"
 #include "cases/report/html/playback.h"
 #include "cases/report/json/json_report.h"
+#include "cases/report/json/packing.h"
 #include "cases/report/reports.h"
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
@@ -141,7 +141,7 @@ std::string html_report(const Results& results) {
   page += kPageStyle;
   page +=
       "</style>\n</head>\n<body>\n<main id=\"page\"><p class=\"loading\">Unpacking the results …</p>"
-      "<noscript>This report draws itself with JavaScript, which is off here; report.md says the same in words."
+      "<noscript>This report needs JavaScript, which is off here. report.md has the same content as text."
       "</noscript></main>\n";
   add_data(page, "rigor-results", {{"encoding", "base64 of zlib of results.json"}, {"data", results_data(results)}});
   constexpr std::size_t kWholePage = 3'900'000, kLeastPlayback = 500'000;  // characters

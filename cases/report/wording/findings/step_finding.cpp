@@ -43,9 +43,8 @@ class StepFinding {
     if (std::string reference = list(true, true); !reference.empty())
       parts.push_back("adaptive reference: " + reference);
     std::string more =
-        "At this step the typical error over the cases is within 1 mm of the truth, or 1 mrad where nothing moves "
-        "away. "
-        "No more than one case in twenty fails.";
+        "At this step the typical error over the cases is within 1 mm, or 1 mrad where nothing moves away. No more "
+        "than one case in twenty fails.";
     if (const std::string all = list(true, false); !all.empty()) more += fmt::format(" Core methods: {}.", all);
     return Finding{"step size", fmt::format("Largest step within 1 mm: {}.", fmt::join(parts, "; ")), more,
                    claims_.take()};

@@ -238,7 +238,7 @@ export class Matrix {
       ),
       line(
         `step within ${quantity(state.tolerance, "m")}`,
-        "the largest step with a typical error (geometric mean and median) within the tolerance and at most one failed case in twenty",
+        "the largest step whose typical error is within the tolerance. At most one case in twenty fails there. Typical: geometric mean and median",
         usableStep,
       ),
     );
