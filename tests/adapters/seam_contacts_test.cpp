@@ -131,10 +131,17 @@ BOOST_AUTO_TEST_CASE(a_pair_that_the_scene_keeps_apart_never_touches) {
       const auto world = run.load(scene);
       const BodyTable state = state_after(*world, dt, std::lround(t / dt));
       const auto position = [&](int body) { return state.columns().position(body); };
-      BOOST_TEST(std::abs(position(0).x() - 0.5) < 1e-9);  // no force acts along x
-      BOOST_TEST(std::abs(position(1).x() + 0.5) < 1e-9);
-      // A scheme of first order is g t dt / 2 off.
-      BOOST_TEST(std::abs(position(2).z() - (0.1 - g * t * t / 2)) < 0.6 * g * t * dt);
+      // As shipped, btMultiBody brakes free motion by (0.04 + 0.04 |v|) v: less than half of v in this second.
+      if (run.name() == "bullet:multibody@stock") {
+        BOOST_TEST(position(0).x() > 0.25);
+        BOOST_TEST(position(1).x() < -0.25);
+        BOOST_TEST(position(2).z() < 0.1 - g * t * t / 4);
+      } else {
+        BOOST_TEST(std::abs(position(0).x() - 0.5) < 1e-9);  // no force acts along x
+        BOOST_TEST(std::abs(position(1).x() + 0.5) < 1e-9);
+        // A scheme of first order is g t dt / 2 off.
+        BOOST_TEST(std::abs(position(2).z() - (0.1 - g * t * t / 2)) < 0.6 * g * t * dt);
+      }
       // The largest depth of a contact: 3 steps of a fall, or a margin of Bullet's.
       if (!has_spheres_of_meshes(run)) BOOST_TEST(std::abs(position(3).z() - 0.1) < 2e-3);
     }

@@ -58,6 +58,13 @@ inline Settings core_method(const std::string& method) {
   return settings;
 }
 
+// The core's contact=event lacks cylinders and ellipsoids.
+inline bool takes_contact_by_events(const Scene& scene) {
+  Settings settings = core_method("dormand-prince");
+  settings.options["contact"] = "event";
+  return why_unsupported(find_engine(engines(), "core").info(), settings, scene, 1e-3).empty();
+}
+
 // The truth itself as a run: what every metric must find nothing wrong with.
 inline Trajectory played(const Truth& truth, const Scene& scene, double dt, int steps) {
   Trajectory trajectory{dt, {}};

@@ -63,7 +63,9 @@ BOOST_AUTO_TEST_SUITE(adapters_dart_import)
 BOOST_AUTO_TEST_CASE(its_own_loaders_and_our_imports_move_alike) {
   for (const char* file : {"arm.urdf", "double_pendulum.urdf", "double_pendulum_poses.sdf"}) {
     Own own(kModels + file);
-    check_alike(file, apart_after(own, "dart", without_limits(scene_of_file(kModels + file)), 1));
+    Scene scene = without_limits(scene_of_file(kModels + file));
+    for (Body& body : scene.bodies) body.collides = false;  // links of one skeleton do not collide in DART's loaders
+    check_alike(file, apart_after(own, "dart", scene, 1));
   }
 }
 
