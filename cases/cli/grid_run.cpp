@@ -89,6 +89,9 @@ std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& fo
   for (const CaseResult& result : grid.cases) {
     for (const Cell& cell : result.cells) {
       if (!cell.trajectory.empty() && cell.status != Status::unsupported) trajectories.push_back(cell.trajectory);
+      const auto series = cell.recordings.find("series");
+      if (series != cell.recordings.end())
+        trajectories.insert(trajectories.end(), series->second.begin(), series->second.end());
     }
   }
   folder.publish(trajectories);
@@ -154,6 +157,7 @@ void GridRequest::declare(Options& options) {
   jobs.declare(options), timeout.declare(options), out.declare(options), resume.declare(options);
   shard.declare(options), deviations.declare(options);
   options.add_flag("--verbose", "print every table and every reason", is_verbose);
+  options.add_flag("--series", "write each metric over time beside the trajectories", has_series);
   if (is_gate) options.add_flag("--quick", "check only gates whose cells are fast", is_quick);
 }
 
@@ -203,7 +207,7 @@ GridOptions options_of(const GridRun& run, const OutputFolder& folder) {
   const bool is_run = !run.asked.is_gate;
   return {run.asked.jobs.count,
           run.asked.timeout.seconds,
-          recorders_for(run.grid, folder.trajectories()),
+          recorders_for(run.grid, folder.trajectories(), run.asked.has_series),
           is_run,
           is_run,
           folder.journals(),

@@ -27,7 +27,7 @@ struct GridRequest {
   ResumeOption resume;
   ShardOption shard;
   DeviationsOption deviations;
-  bool is_quick = false, is_verbose = false;
+  bool is_quick = false, is_verbose = false, has_series = false;
 
   void declare(Options& options);
 };

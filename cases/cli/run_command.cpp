@@ -157,6 +157,8 @@ class GridCommand : public SharedCommand {
 
   int run(const Invocation& invocation) override {
     asked_.invocation = invocation;
+    if (asked_.has_series && !asked_.shard.shard.is_all())
+      throw InputError(fmt::format("rigor {}: a part has no --series; run without --shard", invocation.command));
     const EngineTable engines = asked_.engines.outside.table(asked_.timeout.seconds);
     return asked_.shard.shard.is_all() ? run_whole(asked_, engines) : run_shard(asked_, engines);
   }

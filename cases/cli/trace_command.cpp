@@ -46,8 +46,9 @@ int print_from_child(const std::string& what, double limit, const std::function<
 void send_trajectory(const Simulation& run, const Scene& scene, int every, TraceWriter& writer,
                      const Channel& channel) {
   const std::string start(1, kData);
-  std::string data = start + writer.begin();
-  for (std::size_t i = 0; i < run.trajectory.samples.size(); i += every) {
+  const std::size_t all = run.trajectory.samples.size();
+  std::string data = start + writer.begin((all + every - 1) / every);
+  for (std::size_t i = 0; i < all; i += every) {
     data += writer.add(run.trajectory.samples[i]);
     if (data.size() > kChunk) channel.send(data), data = start;
   }
@@ -202,7 +203,7 @@ Case the_case(const CaseWords& cases, const Invocation& invocation, const Engine
 
 CommandRow trace_row() {
   return {"trace",
-          "print one trajectory as CSV, JSON lines, MCAP or glTF",
+          "print one trajectory as CSV, JSON lines, MCAP, glTF or NumPy's array",
           "CASE",
           "a case or a file",
           {{"rigor trace springs/fixed-spring --engine ode --dt 1/240 > ode.csv", "a table of all samples"},

@@ -1,5 +1,6 @@
 #include "cases/report/reports.h"
 
+#include "cases/report/csv/series_csv.h"
 #include "cases/report/csv/trajectory_csv.h"
 #include "cases/report/html/playback.h"
 
@@ -18,11 +19,12 @@ const std::vector<ReportRow>& reports() {
   return table;
 }
 
-Recorders recorders_for(const Results& grid, const std::string& folder) {
+Recorders recorders_for(const Results& grid, const std::string& folder, bool has_series) {
   Recorders recorders = {std::make_shared<TrajectoryRecorder>(folder)};
 #if RIGOR_HTML_REPORT
   recorders.push_back(std::make_shared<PlaybackRecorder>(grid));
 #endif
+  if (has_series) recorders.push_back(std::make_shared<SeriesRecorder>(folder));
   return recorders;
 }
 

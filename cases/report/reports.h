@@ -16,8 +16,8 @@ struct ReportRow {
 
 const std::vector<ReportRow>& reports();  // alphabetical
 
-// The recorders that the reports of a planned grid need; trajectories go to `folder`.
-Recorders recorders_for(const Results& grid, const std::string& folder);
+// The recorders that the reports of a planned grid need; trajectories go to `folder`, and series of metrics if asked.
+Recorders recorders_for(const Results& grid, const std::string& folder, bool has_series = false);
 
 std::string html_report(const Results& results);  // only in a build with RIGOR_HTML_REPORT
 std::string json_report(const Results& results);

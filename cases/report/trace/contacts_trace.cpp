@@ -9,7 +9,7 @@ namespace {
 class ContactsTrace : public TraceWriter {
  public:
   explicit ContactsTrace(const Scene& scene) : scene_(scene) {}
-  std::string begin() override { return "time,a,b,px,py,pz,nx,ny,nz,gap,fx,fy,fz\n"; }
+  std::string begin(std::size_t) override { return "time,a,b,px,py,pz,nx,ny,nz,gap,fx,fy,fz\n"; }
   std::string add(const Sample& sample) override {
     std::string rows;
     for (const ReportedContact& contact : sample.contacts) {

@@ -137,7 +137,7 @@ class McapTrace : public TraceWriter {
     frames_ = file_.add_channel("/tf", "foxglove.FrameTransforms", schemas.transforms().dump());
   }
 
-  std::string begin() override {
+  std::string begin(std::size_t) override {
     Json entities = Json::array();
     for (const Body& body : scene_.bodies) entities.push_back(Entity(body).json());
     const std::string start = file_.begin();

@@ -15,7 +15,7 @@ namespace {
 class CsvTrace : public TraceWriter {
  public:
   explicit CsvTrace(const Scene& scene) : scene_(scene) {}
-  std::string begin() override { return csv_header() + "\n"; }
+  std::string begin(std::size_t) override { return csv_header() + "\n"; }
   std::string add(const Sample& sample) override {
     std::string rows;
     append_csv_rows(rows, scene_, sample.time, sample.bodies.columns());
@@ -33,7 +33,8 @@ const std::vector<TraceFormat>& trace_formats() {
       {"csv", "time,body and the thirteen columns of a body's state", csv_trace},
       {"gltf", "glTF 2.0: shapes and their motion, for whatever shows three dimensions", gltf_trace},
       {"jsonl", "a line of JSON an instant", jsonl_trace},
-      {"mcap", "MCAP with Foxglove's SceneUpdate and FrameTransforms", mcap_trace}};
+      {"mcap", "MCAP with Foxglove's SceneUpdate and FrameTransforms", mcap_trace},
+      {"npy", "a structured array of NumPy with the columns of csv", npy_trace}};
   return formats;
 }
 

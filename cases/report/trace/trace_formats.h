@@ -14,7 +14,11 @@ namespace rigor {
 class TraceWriter {
  public:
   virtual ~TraceWriter() = default;
-  virtual std::string begin() { return ""; }
+  // `samples`: how often add() will be called.
+  virtual std::string begin(std::size_t samples) {
+    static_cast<void>(samples);
+    return "";
+  }
   virtual std::string add(const Sample& sample) = 0;
   virtual std::string end() { return ""; }
 };
@@ -32,6 +36,7 @@ std::unique_ptr<TraceWriter> csv_trace(const Scene& scene);
 std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene);
 std::unique_ptr<TraceWriter> jsonl_trace(const Scene& scene);
 std::unique_ptr<TraceWriter> mcap_trace(const Scene& scene);
+std::unique_ptr<TraceWriter> npy_trace(const Scene& scene);
 
 // What a body is drawn as: its shape, or the ball of its mean inertia where it has none.
 Shape drawn_shape(const Body& body);

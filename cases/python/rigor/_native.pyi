@@ -1,0 +1,3 @@
+import numpy as np
+
+def read_states(bytes: object) -> np.ndarray: ...

@@ -1,0 +1,268 @@
+"""Commands that simulate: run, gate, sweep, tune and the others. Each starts the program, whose cells are child processes."""
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import tempfile
+import typing
+
+from . import program
+from .case import CaseWord, WrittenCases
+from .engines import Plugins
+from .errors import InputError
+from .results import Results
+
+Cases = typing.Union[CaseWord, typing.Iterable[CaseWord], None]
+Progress = typing.Union[bool, typing.Callable[[int, int], object], None]
+
+
+def _listed(values: typing.Any) -> list[typing.Any]:
+    if values is None:
+        return []
+    return [values] if isinstance(values, (str, bytes, type, int, float)) or not hasattr(values, "__iter__") else list(values)
+
+
+class _Call:
+    """The words of one call of the program, and what stands behind them."""
+
+    def __init__(self, command: str, cases: Cases, engines: typing.Any, plugins: typing.Any, in_process: bool | None, options: dict[str, typing.Any]):
+        from .motion import step_text
+        self.written = WrittenCases()
+        made = Plugins(plugins, in_process)
+        self.words = [command]
+        try:
+            self.words += self.written.words(cases)
+            for engine in _listed(engines):
+                self.words += ["--engine", made.name(engine)]
+            for name, value in options.items():
+                if value is None or value is False:
+                    continue
+                word = f"--{name.replace('_', '-')}"
+                if value is True:
+                    self.words.append(word)
+                else:
+                    is_time = name in ("dt", "duration", "timeout")
+                    for one in _listed(value):
+                        self.words += [word, step_text(one) if is_time else str(one)]
+        except BaseException:
+            self.written.__exit__()
+            raise
+        self.words += made.words()
+
+    def run(self, progress: Progress, out: str | None = None) -> program.Completed:
+        if progress is not None and not isinstance(progress, bool) and not callable(progress):
+            raise InputError("progress is True, False or a function of (done, all)")
+        bar = program.Bar() if progress is True or progress is None and program.is_watched() else None
+        on_progress = bar if bar is not None else progress if callable(progress) else None
+        with self.written:
+            try:
+                return program.call(self.words, on_progress=on_progress, out=out, names=self.written.names)
+            finally:
+                if bar is not None:
+                    bar.close()
+
+
+class _Folder:
+    """The folder of the reports: the caller's, or a temporary one that goes with the last object that needs it."""
+
+    def __init__(self, out: typing.Any):
+        self.keep = None if out is not None else tempfile.TemporaryDirectory(prefix="rigor-out-")
+        self.path = os.fspath(out) if out is not None else os.path.join(typing.cast(typing.Any, self.keep).name, "out")
+        self._before = self._mark("results.json")
+
+    def _mark(self, file: str) -> tuple[int, int] | None:
+        try:
+            status = os.stat(os.path.join(self.path, file))
+            return status.st_ino, status.st_mtime_ns
+        except OSError:
+            return None
+
+    def has_new_results(self) -> bool:
+        now = self._mark("results.json")
+        return now is not None and now != self._before
+
+
+def _grid(command: str, cases: Cases, engines: typing.Any, plugins: typing.Any, in_process: bool | None, out: typing.Any, progress: Progress,
+          options: dict[str, typing.Any]) -> Results:
+    folder = _Folder(out)
+    call = _Call(command, cases, engines, plugins, in_process, {**options, "out": folder.path})
+    try:
+        done = call.run(progress, folder.path)
+    except KeyboardInterrupt:
+        if folder.keep is not None:
+            folder.keep._finalizer.detach()  # type: ignore[attr-defined]  # finished cells stay for resume=True
+        raise
+    # A grid in which a cell broke has results too; only a call that was refused has none.
+    if done.code not in (0, 1, 2, 3) or not folder.has_new_results():
+        raise program.error_of(done)
+    names = {path: name for path, name in call.written.names.items()}
+    return Results(folder.path, folder.keep, names, done.code, done.notes, done.out.decode("utf-8", "replace"))
+
+
+def run(cases: Cases = None, *, engines: typing.Any = None, dt: typing.Any = None, duration: typing.Any = None, plugins: typing.Any = (),
+        in_process: bool | None = None, jobs: int | None = None, timeout: typing.Any = None, out: typing.Any = None, resume: bool = False,
+        series: bool = True, progress: Progress = None, **options: typing.Any) -> Results:
+    """Simulates cases × engines × steps and judges them, each cell in a process of its own.
+
+    `cases`: ids, families, files or ``rigor.Case`` objects; None is the whole suite. `engines`: run names (``"ode"``,
+    ``"core:rk4"``) or classes of ``rigor.Engine``; None is every engine. `dt`, `duration`, `timeout` in s, numbers or
+    fractions in a text. `out`: the folder of the reports; without it they are temporary. `progress`: None shows a bar on a
+    terminal and in a notebook; a function gets (done, all) cells. Other options are those of ``rigor run``: ``suite="…"``,
+    ``lossy=True``.
+
+    A cell that crashed, hung or diverged is in the results with its status. Ctrl-C raises ``rigor.Interrupted``.
+    """
+    return _grid("run", cases, engines, plugins, in_process, out, progress,
+                 {"dt": dt, "duration": duration, "jobs": jobs, "timeout": timeout, "resume": resume, "series": series, **options})
+
+
+def gate(cases: Cases = None, *, engines: typing.Any = None, dt: typing.Any = None, duration: typing.Any = None, plugins: typing.Any = (),
+         in_process: bool | None = None, jobs: int | None = None, timeout: typing.Any = None, out: typing.Any = None, resume: bool = False,
+         series: bool = True, progress: Progress = None, **options: typing.Any) -> Results:
+    """``run``, of the cells that a gate judges. ``passed`` and ``failures()`` of the results say what held."""
+    return _grid("gate", cases, engines, plugins, in_process, out, progress,
+                 {"dt": dt, "duration": duration, "jobs": jobs, "timeout": timeout, "resume": resume, "series": series, **options})
+
+
+class Sweep:
+    """The rows of a sweep, one a cell."""
+
+    def __init__(self, folder: str, keep: object, text: str):
+        self.folder, self._keep, self.text = folder, keep, text
+        with open(os.path.join(folder, "sweep.jsonl"), encoding="utf-8") as file:
+            self.rows: list[dict[str, typing.Any]] = [json.loads(line) for line in file]
+
+    def __repr__(self) -> str:
+        return f"<rigor.Sweep of {len(self.rows)} cells in {self.folder!r}>"
+
+    def to_dataframe(self) -> typing.Any:
+        """A pandas DataFrame with the columns of sweep.csv: a row a cell. ``attrs["units"]`` has the units."""
+        import pandas
+        frame = pandas.read_csv(os.path.join(self.folder, "sweep.csv"), float_precision="round_trip")
+        parts = {column: re.fullmatch(r"(.*) \[([^\[\]]*)\]", column) for column in frame.columns}
+        frame = frame.rename(columns={column: match[1] for column, match in parts.items() if match})
+        frame.attrs["units"] = {match[1]: match[2] for match in parts.values() if match}
+        return frame
+
+
+def sweep(cases: Cases, *, vary: typing.Mapping[str, typing.Any], engines: typing.Any = None, plugins: typing.Any = (),
+          in_process: bool | None = None, out: typing.Any = None, progress: Progress = None, **options: typing.Any) -> Sweep:
+    """Every combination of values: ``vary={"dt": "1/1000..1/10:log:20", "scene.spring[0].stiffness": [1e2, 1e3]}``."""
+    if not isinstance(vary, dict) or not vary:
+        raise InputError("vary is a dict from a key to its values, as {\"dt\": [\"1/30\", \"1/240\"]}")
+    folder = _Folder(out)
+    words = [f"{key}={values if isinstance(values, str) else ','.join(v if isinstance(v, str) else repr(float(v)) for v in _listed(values))}"
+             for key, values in vary.items()]
+    call = _Call("sweep", cases, engines, plugins, in_process, {"vary": words, "out": folder.path, **options})
+    done = program.checked(call.run(progress, folder.path), (0, 3))
+    if not os.path.isfile(os.path.join(folder.path, "sweep.jsonl")):
+        raise program.error_of(done)
+    return Sweep(folder.path, folder.keep, done.out.decode("utf-8", "replace"))
+
+
+class Printed:
+    """What a command printed: ``text``, and ``json`` if the command has it. True if its exit code is 0."""
+
+    def __init__(self, done: program.Completed, as_json: bool):
+        self.exit_code = done.code
+        self.notes = tuple(done.notes)
+        self.text: str = done.out.decode("utf-8", "replace")
+        self.json: typing.Any = json.loads(self.text) if as_json else None
+
+    def __bool__(self) -> bool:
+        return self.exit_code == 0
+
+    def __repr__(self) -> str:
+        return self.text.rstrip()
+
+
+class Tuned(Printed):
+    """The cheapest setting within the bounds. False if there is none."""
+
+    def __init__(self, done: program.Completed):
+        super().__init__(done, False)
+        self.engine: str | None = None
+        """The winner's run name, with its options."""
+        self.dt: str | None = None
+        for line in self.text.splitlines():
+            if line.strip().startswith("rigor run ") and self.engine is None:
+                words = shlex.split(line)
+                self.engine, self.dt = words[words.index("--engine") + 1], words[words.index("--dt") + 1]
+
+
+def tune(cases: Cases, *, engine: typing.Any, within: typing.Any, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = None,
+         **options: typing.Any) -> Tuned:
+    """The cheapest step and options of `engine` within bounds: ``within="1mm"`` or ``["1mm", "2% energy"]``."""
+    call = _Call("tune", cases, engine, plugins, in_process, {"within": within, **options})
+    return Tuned(program.checked(call.run(progress), (0, 1)))
+
+
+def command(name: str, cases: Cases = None, *, engines: typing.Any = None, plugins: typing.Any = (), in_process: bool | None = None,
+            progress: Progress = None, **options: typing.Any) -> Printed:
+    """Any command of the program: ``rigor.command("settle", "my-case.toml")``. Options are keywords; a list repeats one.
+
+    ``json`` of the answer is set if the command has the option --json.
+    """
+    has_json = "--json" in program.checked(program.call(["help", name])).out.decode("utf-8", "replace")
+    call = _Call(name, cases, engines, plugins, in_process, {**options, "json": has_json})
+    return Printed(program.checked(call.run(progress), (0, 1)), has_json)
+
+
+def fit(cases: Cases, *, engine: typing.Any, vary: typing.Mapping[str, typing.Any], **options: typing.Any) -> Printed:
+    """The parameters that fit the truth or a recording best: ``vary={"scene.contact[0].friction": "0.1..1"}``."""
+    words = [f"{key}={values if isinstance(values, str) else '..'.join(repr(float(v)) for v in values)}" for key, values in vary.items()]
+    return command("fit", cases, engines=engine, vary=words, **options)
+
+
+def diverge(case: Cases, *, engines: typing.Sequence[typing.Any], **options: typing.Any) -> Printed:
+    """When, where and why the runs of two engines part."""
+    return command("diverge", case, engines=engines, **options)
+
+
+def repeat(cases: Cases, *, engine: typing.Any, **options: typing.Any) -> Printed:
+    """Whether a run gives the same bits under each change that should not matter."""
+    return command("repeat", cases, engines=engine, **options)
+
+
+class Conformance(Printed):
+    """The checks of an engine against the interface. True if none is broken."""
+
+    def __init__(self, done: program.Completed):
+        super().__init__(done, True)
+        self.checks: list[dict[str, typing.Any]] = self.json["checks"]
+        """Rows with ``name``, ``asks``, ``answer`` (holds, broken, not-asked); of a broken one ``sent``, ``came`` and ``due``."""
+        self.diagnosis: dict[str, typing.Any] | None = self.json.get("diagnosis")
+
+    def broken(self) -> list[dict[str, typing.Any]]:
+        return [check for check in self.checks if check["answer"] == "broken"]
+
+    def __repr__(self) -> str:
+        lines = [f"{self.json['engine']}: {'conforms' if self else 'does not conform'}, {len(self.checks)} checks"]
+        for check in self.checks:
+            lines.append(f"  {check['answer']:<9} {check['name']:<16} {check['asks']}")
+            if check["answer"] == "broken":
+                lines += [f"{'':12}{key}: {check[key][:600]}" for key in ("came", "due")]
+        return "\n".join(lines)
+
+
+def conform(engine: typing.Any, *, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = False,
+            **options: typing.Any) -> Conformance:
+    """Checks an engine against the interface: ``assert rigor.conform(MyEngine)``. The answer's text names each broken check."""
+    call = _Call("conform", None, engine, plugins, in_process, {"json": True, **options})
+    return Conformance(program.checked(call.run(progress), (0, 1)))
+
+
+class Diagnosis(Printed):
+    """Which known mistake explains an engine's error, as ``rigor diagnose --json`` says."""
+
+    def __repr__(self) -> str:
+        return json.dumps(self.json, indent=2)
+
+
+def diagnose(cases: Cases = None, *, engine: typing.Any, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = None,
+             **options: typing.Any) -> Diagnosis:
+    """Names the known mistake that explains the error of `engine`. Without cases those that tell mistakes apart."""
+    call = _Call("diagnose", cases, engine, plugins, in_process, {"json": True, **options})
+    return Diagnosis(program.checked(call.run(progress)), True)
