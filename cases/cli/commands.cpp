@@ -10,6 +10,7 @@ CommandRow compare_row();
 CommandRow completion_row();
 CommandRow conform_row();
 CommandRow diagnose_row();
+CommandRow diverge_row();
 CommandRow export_row();
 CommandRow gate_row();
 CommandRow history_row();
@@ -58,9 +59,9 @@ const std::vector<NamedFact>& environment_variables() {
 
 const std::vector<CommandRow>& commands() {
   static const std::vector<CommandRow> table = {
-      list_row(),     run_row(),     gate_row(),    sweep_row(),    tune_row(),       merge_row(), compare_row(),
-      baseline_row(), history_row(), open_row(),    trace_row(),    truth_row(),      new_row(),   import_row(),
-      export_row(),   settle_row(),  conform_row(), diagnose_row(), completion_row(),
+      list_row(),     run_row(),     gate_row(),    sweep_row(),    tune_row(),    merge_row(),      compare_row(),
+      baseline_row(), history_row(), open_row(),    trace_row(),    truth_row(),   new_row(),        import_row(),
+      export_row(),   settle_row(),  conform_row(), diagnose_row(), diverge_row(), completion_row(),
   };
   return table;
 }
