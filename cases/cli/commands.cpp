@@ -10,6 +10,7 @@ CommandRow compare_row();
 CommandRow completion_row();
 CommandRow conform_row();
 CommandRow diagnose_row();
+CommandRow diverge_row();
 CommandRow export_row();
 CommandRow gate_row();
 CommandRow history_row();
@@ -18,6 +19,7 @@ CommandRow list_row();
 CommandRow merge_row();
 CommandRow new_row();
 CommandRow open_row();
+CommandRow repeat_row();
 CommandRow run_row();
 CommandRow settle_row();
 CommandRow show_row();
@@ -59,9 +61,10 @@ const std::vector<NamedFact>& environment_variables() {
 
 const std::vector<CommandRow>& commands() {
   static const std::vector<CommandRow> table = {
-      list_row(),     run_row(),     gate_row(), sweep_row(),   tune_row(),     merge_row(),      compare_row(),
-      baseline_row(), history_row(), open_row(), trace_row(),   truth_row(),    new_row(),        import_row(),
-      export_row(),   settle_row(),  show_row(), conform_row(), diagnose_row(), completion_row(),
+      list_row(),     run_row(),      gate_row(),    sweep_row(),      tune_row(),  merge_row(),
+      compare_row(),  baseline_row(), history_row(), open_row(),       trace_row(), truth_row(),
+      new_row(),      import_row(),   export_row(),  settle_row(),     show_row(),  conform_row(),
+      diagnose_row(), diverge_row(),  repeat_row(),  completion_row(),
   };
   return table;
 }

@@ -1,0 +1,102 @@
+#include "cases/analysis/divergence/rebased_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace rigor {
+namespace {
+
+constexpr double kWholeTurn = 2 * std::numbers::pi;
+
+// How a body has moved since t = 0: where its point p of t = 0 is, and how its directions turn.
+struct Carrier {
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+  Quat turn = Quat::Identity();
+
+  Vec3 point(const Vec3& p) const { return to + turn * (p - from); }
+};
+
+Carrier carrier_of(const Scene& scene, const std::vector<BodyState>& bodies, int body) {
+  if (body == kWorld || scene.bodies[static_cast<std::size_t>(body)].fixed) return {};
+  const BodyPose start = scene.pose(body);
+  const BodyState& now = bodies[static_cast<std::size_t>(body)];
+  return {start.position, now.position, (now.orientation * start.orientation.conjugate()).normalized()};
+}
+
+// rad, from -pi to pi.
+double angle_about(const Vec3& axis, const Quat& turn) {
+  return std::remainder(2 * std::atan2(turn.vec().dot(axis), turn.w()), kWholeTurn);
+}
+
+double coordinate_of(const Scene& scene, const Joint& joint, const std::vector<BodyState>& bodies) {
+  const Vec3* axis = free_axis(joint);
+  if (!axis) return 0;
+  const Carrier a = carrier_of(scene, bodies, joint.a), b = carrier_of(scene, bodies, joint.b);
+  if (turns(joint)) return angle_about(*axis, a.turn.conjugate() * b.turn);
+  const Vec3 centre = scene.pose(joint.b == kWorld ? joint.a : joint.b).position;
+  if (joint.b == kWorld) return -(a.turn * *axis).dot(a.to - centre);
+  return (a.turn * *axis).dot(b.point(centre) - a.point(centre));
+}
+
+void move_joint(Joint& joint, const Carrier& a, const Carrier& b, double x) {
+  for_each_vector(joint.type, [&](const char* key, JointVector kind, Vec3& vector) {
+    // A universal joint's second axis is fixed in b.
+    const Carrier& carrier = std::strcmp(key, "axis2") == 0 ? b : a;
+    if (kind == JointVector::point) vector = carrier.point(vector);
+    if (kind == JointVector::direction) vector = (carrier.turn * vector).normalized();
+  });
+  joint.rest -= turns(joint) ? std::remainder(x, kWholeTurn) : x;
+  joint.lower = std::min(0.0, joint.lower - x), joint.upper = std::max(0.0, joint.upper - x);
+}
+
+void shift(TimeTable& table, double t, double value) {
+  if (!table.is_constant()) {
+    for (double& time : table.times) time -= t;
+  }
+  for (double& each : table.values) each -= value;
+}
+
+// A servo that samples keeps a start before 0, from which its samples are counted.
+void shift(Motor& motor, const Joint& joint, double t, double x) {
+  const bool samples = motor.servo && motor.servo->period > 0;
+  motor.from = samples ? motor.from - t : std::max(0.0, motor.from - t);
+  motor.until -= t;
+  if (motor.efforts) shift(*motor.efforts, t, 0);
+  if (motor.servo) shift(motor.servo->target, t, turns(joint) ? std::remainder(x, kWholeTurn) : x);
+}
+
+}  // namespace
+
+void JointCoordinates::follow(const std::vector<BodyState>& bodies) {
+  for (std::size_t k = 0; k < scene_.joints.size(); ++k) {
+    const double x = coordinate_of(scene_, scene_.joints[k], bodies);
+    values_[k] = turns(scene_.joints[k]) ? values_[k] + std::remainder(x - values_[k], kWholeTurn) : x;
+  }
+}
+
+Scene rebased(const Scene& scene, const std::vector<BodyState>& bodies, const std::vector<double>& coordinates,
+              double t) {
+  Scene out = scene;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    Body& body = out.bodies[i];
+    if (body.fixed) continue;
+    body.position = bodies[i].position, body.orientation = bodies[i].orientation.normalized();
+    body.velocity = bodies[i].velocity, body.angular_velocity = bodies[i].angular_velocity;
+  }
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    const Carrier a = carrier_of(scene, bodies, scene.joints[k].a), b = carrier_of(scene, bodies, scene.joints[k].b);
+    move_joint(out.joints[k], a, b, coordinates[k]);
+  }
+  for (Motor& motor : out.motors) {
+    const auto k = static_cast<std::size_t>(motor.joint);
+    shift(motor, scene.joints[k], t, coordinates[k]);
+  }
+  std::erase_if(out.motors, [](const Motor& motor) { return motor.until <= 0; });
+  for (TimedForce& force : out.forces) force.from = std::max(0.0, force.from - t), force.until -= t;
+  std::erase_if(out.forces, [](const TimedForce& force) { return force.until <= 0; });
+  return out;
+}
+
+}  // namespace rigor

@@ -1,0 +1,233 @@
+#include "cases/analysis/repeats/repeats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "cases/analysis/divergence/parting_bounds.h"
+#include "cases/runner/process_pool.h"
+#include "core/base/error.h"
+#include "core/base/json.h"
+#include "core/engine/simulation.h"
+
+namespace rigor {
+namespace {
+
+// A difference like this many times that of one rounding is one of a few roundings that the motion amplifies.
+constexpr double kRoundings = 100;
+
+std::string packed_states(const RecordedStates& states) {
+  const std::uint64_t bodies = states.bodies;
+  std::string text(sizeof bodies, '\0');
+  std::memcpy(text.data(), &bodies, sizeof bodies);
+  return text.append(reinterpret_cast<const char*>(states.values.data()), states.values.size() * sizeof(double));
+}
+
+RecordedStates unpacked_states(const std::string& text) {
+  RecordedStates states;
+  std::uint64_t bodies = 0;
+  std::memcpy(&bodies, text.data(), sizeof bodies);
+  states.bodies = bodies;
+  states.values.resize((text.size() - sizeof bodies) / sizeof(double));
+  std::memcpy(states.values.data(), text.data() + sizeof bodies, states.values.size() * sizeof(double));
+  return states;
+}
+
+struct StatesOrWhy {
+  RecordedStates states;
+  std::string why;
+};
+
+StatesOrWhy states_from_child(const EngineTable& engines, double limit, const std::function<RecordedStates()>& work) {
+  StatesOrWhy answer;
+  const auto on_message = [&](std::size_t, const std::string& text) { answer.states = unpacked_states(text); };
+  const auto on_end = [&](std::size_t, const JobEnd& end) {
+    if (end.how != Ending::finished) answer.why = end.how == Ending::refused ? end.text : sentence_of(end, limit);
+  };
+  const Job job{[&](const Channel& channel) {
+                  channel.send(packed_states(work()));
+                  engines.rest();
+                },
+                limit};
+  run_jobs({job}, 1, on_message, on_end);
+  return answer;
+}
+
+// One rounding of each coordinate.
+Scene rounded_differently(const Scene& scene) {
+  Scene out = scene;
+  for (Body& body : out.bodies) {
+    if (body.fixed) continue;
+    for (int k = 0; k < 3; ++k) {
+      const double x = body.position[k];
+      body.position[k] = x == 0 ? 0x1p-53 : std::nextafter(x, HUGE_VAL);
+    }
+  }
+  return out;
+}
+
+// As a child sends it.
+Json json_of_difference(const std::optional<BitDifference>& difference) {
+  if (!difference) return nullptr;
+  // Infinity has no JSON; the largest double stands for it.
+  const auto number = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::max(); };
+  return {difference->step,
+          difference->body,
+          difference->column,
+          number(difference->there),
+          number(difference->position),
+          number(difference->angle),
+          number(difference->rounding),
+          number(difference->far_rounding)};
+}
+
+std::optional<BitDifference> difference_in(const Json& json) {
+  if (json.is_null()) return {};
+  return BitDifference{json.at(0), json.at(1), json.at(2), json.at(3), json.at(4), json.at(5), json.at(6), json.at(7)};
+}
+
+class Repeater {
+ public:
+  Repeater(const EngineTable& engines, const RepeatedRun& run, const RecordedStates& base, const RepeatOptions& options)
+      : engines_(engines), run_(run), base_(base), options_(options) {}
+
+  std::vector<RepeatOutcome> all() {
+    std::vector<Job> jobs;
+    std::vector<std::size_t> first;
+    for (const RepeatChange& change : repeat_changes()) {
+      std::string why;
+      const std::vector<ChangedRun> runs = change.runs(run_, why);
+      first.push_back(outcomes_.size());
+      if (runs.empty()) add(change, "", why);
+      for (const ChangedRun& one : runs) add(change, one.label, "no answer");
+      if (!runs.empty()) jobs.push_back(job_of(runs));
+      if (runs.empty()) first.pop_back();
+    }
+    const auto on_message = [&](std::size_t job, const std::string& text) { take(first[job], parse_json(text)); };
+    const auto on_end = [&](std::size_t job, const JobEnd& end) {
+      if (end.how == Ending::finished) return;
+      for (std::size_t n = first[job]; n < outcomes_.size() && outcomes_[n].change == outcomes_[first[job]].change;
+           ++n) {
+        if (!outcomes_[n].is_run) outcomes_[n].why = sentence_of(end, options_.limit), outcomes_[n].has_failed = true;
+      }
+    };
+    run_jobs(jobs, options_.jobs, on_message, on_end);
+    return outcomes_;
+  }
+
+ private:
+  void add(const RepeatChange& change, const std::string& label, const std::string& why) {
+    RepeatOutcome outcome;
+    outcome.change = change.name, outcome.label = label, outcome.must_hold = change.must_hold, outcome.why = why;
+    outcomes_.push_back(outcome);
+  }
+
+  // The runs of one change, in a process of their own.
+  Job job_of(const std::vector<ChangedRun>& runs) const {
+    return {[this, runs](const Channel& channel) {
+              for (std::size_t n = 0; n < runs.size(); ++n) {
+                const RecordedStates found = runs[n].found();
+                const auto difference = first_difference(runs[n].due ? runs[n].due() : base_, found);
+                channel.send(Json{{"run", n}, {"difference", json_of_difference(difference)}}.dump());
+              }
+              engines_.rest();
+            },
+            options_.limit};
+  }
+
+  void take(std::size_t first, const Json& answer) {
+    RepeatOutcome& outcome = outcomes_[first + answer.at("run").get<std::size_t>()];
+    outcome.is_run = true, outcome.why.clear();
+    outcome.difference = difference_in(answer.at("difference"));
+    if (outcome.difference) outcome.body = run_.scene.bodies[outcome.difference->body].name;
+  }
+
+  const EngineTable& engines_;
+  const RepeatedRun& run_;
+  const RecordedStates& base_;
+  const RepeatOptions& options_;
+  std::vector<RepeatOutcome> outcomes_;
+};
+
+// In a new process, of which only the hashes are known.
+RepeatOutcome in_new_process(const std::vector<std::uint64_t>& due, const HashesElsewhere& elsewhere) {
+  RepeatOutcome outcome;
+  outcome.change = "new-process";
+  if (!elsewhere) {
+    outcome.why = "no program is there to start";
+    return outcome;
+  }
+  const std::vector<std::uint64_t> found = elsewhere();
+  outcome.is_run = true;
+  const auto at = std::mismatch(due.begin(), due.end(), found.begin(), found.end());
+  if (at.first != due.end() || at.second != found.end()) {
+    outcome.difference = BitDifference{};
+    outcome.difference->step = at.first - due.begin(), outcome.difference->column = -1;
+  }
+  return outcome;
+}
+
+// A difference is one of roundings if it begins as some of them, and ends no larger than some times what one rounding
+// of the start makes, or of the coordinates themselves.
+void compare_with_rounding(RepeatReport& report, double size) {
+  for (RepeatOutcome& outcome : report.outcomes) {
+    if (!outcome.difference || outcome.difference->column < 0) continue;
+    const BitDifference& difference = *outcome.difference;
+    const bool is_small = difference.there <= kRoundings * std::max(difference.rounding, 0x1p-52);
+    const double position = std::max(report.rounding_position, difference.far_rounding),
+                 angle = std::max(report.rounding_angle, difference.far_rounding / size);
+    outcome.is_like_rounding =
+        is_small && difference.position <= kRoundings * position && difference.angle <= kRoundings * angle;
+  }
+}
+
+}  // namespace
+
+bool RepeatReport::repeats() const {
+  return std::none_of(outcomes.begin(), outcomes.end(), [](const RepeatOutcome& one) { return one.breaks(); });
+}
+
+RecordedStates base_states(const EngineTable& engines, const Case& definition, const RunName& run, const StepSize& dt,
+                           double limit) {
+  const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt.seconds);
+  if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
+  const long steps = steps_in(definition.duration, dt.seconds);
+  constexpr double kMostBytes = 1e9;
+  const double bytes = 8.0 * RecordedStates::kColumns * static_cast<double>(definition.scene.bodies.size()) *
+                       static_cast<double>(steps + 1);
+  if (bytes > kMostBytes)
+    throw InputError(fmt::format("{}: {} steps of {} bodies take {:.2g} bytes; use a shorter --duration", definition.id,
+                                 steps, definition.scene.bodies.size(), bytes));
+  StatesOrWhy base = states_from_child(engines, limit, [&] {
+    return recorded(engines.find(run.engine), run.settings, definition.scene, dt.seconds, steps);
+  });
+  if (!base.why.empty()) throw InputError(fmt::format("{}: {}", run.text, base.why));
+  return std::move(base.states);
+}
+
+RepeatReport repeat(const EngineTable& engines, const Case& definition, const RunName& run, const StepSize& dt,
+                    const RepeatOptions& options) {
+  RepeatReport report{definition.id, run, dt, steps_in(definition.duration, dt.seconds), 0, 0, {}, {}};
+  const RecordedStates base = base_states(engines, definition, run, dt, options.limit);
+  report.hashes = hashes_of(base);
+  const Engine& engine = engines.find(run.engine);
+  const RepeatedRun repeated{engine, engines.info_of(run.engine), run, definition.scene, dt.seconds, report.steps};
+  report.outcomes = Repeater(engines, repeated, base, options).all();
+  report.outcomes.insert(report.outcomes.begin() + 1, in_new_process(report.hashes, options.elsewhere));
+  const bool some_differ = std::any_of(report.outcomes.begin(), report.outcomes.end(),
+                                       [](const RepeatOutcome& one) { return one.difference.has_value(); });
+  if (!some_differ) return report;
+  const Scene nudged = rounded_differently(definition.scene);
+  const StatesOrWhy other = states_from_child(
+      engines, options.limit, [&] { return recorded(engine, run.settings, nudged, dt.seconds, report.steps); });
+  if (!other.why.empty() || other.states.samples() != base.samples()) return report;
+  const PoseDistance end = pose_distance(base, other.states, base.samples() - 1);
+  report.rounding_position = end.position, report.rounding_angle = end.angle;
+  compare_with_rounding(report, scene_size(definition.scene));
+  return report;
+}
+
+}  // namespace rigor
