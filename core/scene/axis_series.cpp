@@ -1,0 +1,217 @@
+#include "core/scene/axis_series.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace rigor {
+namespace {
+
+// Up to three directions, and the rows of their pseudo-inverse.
+struct Directions {
+  std::array<Vec3, 3> of, inverse;
+  int count = 0;
+
+  void add(const Vec3& direction) { of[static_cast<std::size_t>(count++)] = direction; }
+  void invert() {
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> columns(3, count);
+    for (int i = 0; i < count; ++i) columns.col(i) = of[static_cast<std::size_t>(i)];
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> gram = columns.transpose() * columns;
+    const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> inverses = gram.inverse() * columns.transpose();
+    for (int i = 0; i < count; ++i) inverse[static_cast<std::size_t>(i)] = inverses.row(i);
+  }
+};
+
+// How far `from` turns about the unit axis to lie as `to` does.
+double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
+  return std::atan2(axis.dot(from.cross(to)), from.dot(to) - axis.dot(from) * axis.dot(to));
+}
+
+Mat3 turned_about(const Vec3& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
+
+// Twice the sine of a small rotation, as a vector.
+Vec3 sines_of(const Mat3& turn) {
+  return 0.5 * Vec3(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+}
+
+std::array<Vec3, 2> two_across(const Vec3& axis) {
+  const Vec3 first = axis.unitOrthogonal();
+  return {first, axis.cross(first)};
+}
+
+// Those across all of the directions; `first`: the two across a single one.
+int across_all(const Directions& directions, const std::array<Vec3, 2>& first, std::array<Vec3, 3>& out) {
+  if (directions.count == 0) {
+    for (int k = 0; k < 3; ++k) out[static_cast<std::size_t>(k)] = Vec3::Unit(k);
+    return 3;
+  }
+  if (directions.count == 1) {
+    out[0] = first[0], out[1] = first[1];
+    return 2;
+  }
+  if (directions.count == 2) {
+    out[0] = directions.of[0].cross(directions.of[1]).normalized();
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+AxisSeries::AxisSeries(const std::vector<SeriesAxis>& axes, const BodyPose& a, const BodyPose& b) : axes_(axes) {
+  const Quat to_a = a.orientation.conjugate();
+  bool has_slider = false;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    SeriesAxis& axis = axes_[i];
+    axis.axis = to_a * axis.axis, axis.anchor = to_a * (axis.anchor - a.position);
+    if (axis.turns && hinges_.empty()) across_hinge_ = two_across(axis.axis);
+    if (axis.turns) hinges_.push_back(i);
+    if (!axis.turns && !has_slider) across_slider_ = two_across(axis.axis), has_slider = true;
+  }
+  centre_b_ = to_a * (b.position - a.position);
+  turn_start_ = matrix_of(to_a * b.orientation);
+}
+
+void AxisSeries::find_angles(const Mat3& turn, std::array<double, kMostSeriesAxes>& x, double& sine) const {
+  const auto axis = [&](std::size_t n) -> const Vec3& { return axes_[hinges_[n]].axis; };
+  if (hinges_.size() == 1) {
+    const Vec3& across = across_hinge_[0];
+    x[hinges_[0]] = angle_about(axis(0), across, turn * across);
+  } else if (hinges_.size() == 2) {
+    x[hinges_[0]] = angle_about(axis(0), axis(1), turn * axis(1));
+    x[hinges_[1]] = -angle_about(axis(1), axis(0), turn.transpose() * axis(0));
+  } else if (hinges_.size() == 3) {
+    const Vec3 &u = axis(0), &v = axis(1), &w = axis(2);
+    const double constant = u.dot(v) * v.dot(w), cosine = u.dot(w) - constant, of_sine = u.dot(v.cross(w));
+    const double size = std::hypot(cosine, of_sine), phase = std::atan2(of_sine, cosine);
+    const double from_phase = std::acos(std::clamp((u.dot(turn * w) - constant) / size, -1.0, 1.0));
+    const double middle = phase - std::copysign(from_phase, phase);
+    sine = std::sin(from_phase);
+    const Mat3 by_middle = turned_about(v, middle);
+    x[hinges_[0]] = angle_about(u, by_middle * w, turn * w);
+    x[hinges_[1]] = middle;
+    x[hinges_[2]] = -angle_about(w, by_middle.transpose() * u, turn.transpose() * u);
+  }
+}
+
+struct AxisSeries::Place {
+  Vec3 direction, anchor;  // in W
+};
+
+AxisSeries::Rows AxisSeries::at(const SeriesEnd& a, const SeriesEnd& b) const {
+  Rows out;
+  std::array<double, kMostSeriesAxes> x{};
+  find_angles(a.R.transpose() * b.R * turn_start_.transpose(), x, out.sine);
+
+  // The chain with its hinges turned and its sliders at 0, in a's frame; then the sliders.
+  std::array<Place, kMostSeriesAxes> places;
+  std::array<Vec3, 2> across_hinge = across_hinge_, across_slider = across_slider_;
+  Mat3 C = Mat3::Identity();
+  Vec3 moved = Vec3::Zero();
+  Directions hinges, sliders;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const SeriesAxis& axis = axes_[i];
+    Place& place = places[i];
+    place = {a.R * (C * axis.axis), C * axis.anchor + moved};
+    Directions& kind = axis.turns ? hinges : sliders;
+    if (kind.count == 0)
+      for (Vec3& direction : axis.turns ? across_hinge : across_slider) direction = a.R * (C * direction);
+    kind.add(place.direction);
+    if (!axis.turns) continue;
+    const Mat3 turn = turned_about(C * axis.axis, x[i]);
+    moved = place.anchor + turn * (moved - place.anchor), C = turn * C;
+  }
+  hinges.invert(), sliders.invert();
+  const Vec3 line = b.position - a.position, beside = line - a.R * (C * centre_b_ + moved);
+  Vec3 slid = Vec3::Zero();
+  int slider = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    places[i].anchor = a.position + a.R * places[i].anchor + slid;
+    if (axes_[i].turns) continue;
+    x[i] = sliders.inverse[static_cast<std::size_t>(slider++)].dot(beside);
+    slid += x[i] * places[i].direction;
+  }
+
+  // Rows without their biases.
+  std::array<Vec3, 3> lever;  // h x r of each hinge
+  const Vec3 w = b.angular_velocity - a.angular_velocity, v = b.velocity - a.velocity - a.angular_velocity.cross(line);
+  const auto along = [&](const Vec3& force) {
+    Row row;
+    row.force = force;
+    for (int n = 0; n < hinges.count; ++n)
+      row.torque -= force.dot(lever[static_cast<std::size_t>(n)]) * hinges.inverse[static_cast<std::size_t>(n)];
+    return row;
+  };
+  for (std::size_t n = 0; n < hinges_.size(); ++n) {
+    const Place& place = places[hinges_[n]];
+    lever[n] = place.direction.cross(b.position - place.anchor);
+    out.coordinates[hinges_[n]].torque = hinges.inverse[n];
+  }
+  slider = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    if (!axes_[i].turns) out.coordinates[i] = along(sliders.inverse[static_cast<std::size_t>(slider++)]);
+  std::array<Vec3, 3> locked;
+  const Vec3 sines = sines_of(b.R * (a.R * C * turn_start_).transpose());
+  const int turns = across_all(hinges, across_hinge, locked);
+  for (int k = 0; k < turns; ++k) {
+    Row& row = out.locked[static_cast<std::size_t>(out.count++)];
+    row.torque = locked[static_cast<std::size_t>(k)], row.gap = row.torque.dot(sines);
+  }
+  const int shifts = across_all(sliders, across_slider, locked);
+  for (int k = 0; k < shifts; ++k) {
+    Row& row = out.locked[static_cast<std::size_t>(out.count++)];
+    row = along(locked[static_cast<std::size_t>(k)]), row.gap = row.force.dot(beside - slid);
+  }
+
+  // The acceleration of b while a's and those of the coordinates are zero.
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    Row& row = out.coordinates[i];
+    row.gap = x[i], row.rate = row.force.dot(v) + row.torque.dot(w);
+  }
+  Vec3 turning = a.angular_velocity, angular = Vec3::Zero(), linear = turning.cross(turning.cross(line));
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const Vec3 rate = out.coordinates[i].rate * places[i].direction, change = turning.cross(rate);
+    if (!axes_[i].turns) {
+      linear += 2 * change;
+      continue;
+    }
+    const Vec3 arm = b.position - places[i].anchor, after = turning + rate;
+    linear += change.cross(arm) + after.cross(after.cross(arm)) - turning.cross(turning.cross(arm));
+    angular += change, turning = after;
+  }
+  const auto finish = [&](Row& row) {
+    row.rate = row.force.dot(v) + row.torque.dot(w);
+    row.bias = -row.force.dot(linear) - row.torque.dot(angular);
+  };
+  for (std::size_t i = 0; i < axes_.size(); ++i) finish(out.coordinates[i]);
+  for (int k = 0; k < out.count; ++k) finish(out.locked[static_cast<std::size_t>(k)]);
+  return out;
+}
+
+std::string why_no_series(const std::vector<SeriesAxis>& axes) {
+  constexpr double kParallel = 1e-3;  // sine; below it three digits of the coordinates and more are lost
+  for (const bool turns : {true, false}) {
+    std::vector<Vec3> directions;
+    for (const SeriesAxis& axis : axes)
+      if (axis.turns == turns) directions.push_back(axis.axis);
+    const char* const kind = turns ? "hinges" : "sliders";
+    if (directions.size() > kMostSeriesAxesOfAKind)
+      return fmt::format("found {} {}; allowed: at most three of them", directions.size(), kind);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j)
+        if (directions[i].cross(directions[j]).norm() < kParallel)
+          return fmt::format("the {} {} and {} have the same axis; allowed: each direction once", kind, j + 1, i + 1);
+    }
+    if (directions.size() == 3 && std::abs(directions[0].dot(directions[1].cross(directions[2]))) < kParallel)
+      return fmt::format(
+          "the axes of its three {} lie in one plane, so one repeats the others; allowed: independent "
+          "directions",
+          kind);
+  }
+  return axes.empty() ? "has no axis; allowed: one to six" : "";
+}
+
+}  // namespace rigor
