@@ -28,8 +28,13 @@ class Host:
     """One engine. Texts are the JSON of the plug-ins' protocol."""
 
     def __init__(self, specification: typing.Mapping[str, typing.Any]):
+        # A module that runs cases while it is imported would start this process again and again (program.py).
         os.environ["RIGOR_IN_ENGINE"] = "1"
-        self.engine = class_of(specification)()
+        try:
+            cls = class_of(specification)
+        finally:
+            del os.environ["RIGOR_IN_ENGINE"]
+        self.engine = cls()
         self.who = type(self.engine).__name__
 
     def info(self) -> str:
