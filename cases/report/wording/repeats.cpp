@@ -9,7 +9,7 @@ namespace {
 
 std::string difference_text(const RepeatOutcome& outcome) {
   const BitDifference& difference = *outcome.difference;
-  const std::string head = outcome.must_hold ? "DIFFERS" : "depends on it";
+  const std::string head = outcome.must_hold ? "DIFFERS" : "order-dependent";
   if (difference.column < 0) return fmt::format("{} from step {} on", head, difference.step);
   return fmt::format("{} from step {} on: {} of '{}' by {:.3g}; at the end {:.3g} m and {:.3g} rad, {}", head,
                      difference.step, kColumnNames[static_cast<std::size_t>(difference.column)], outcome.body,
