@@ -1,5 +1,5 @@
-#include "core/base/names_of.h"
 #include "core/world.h"
+#include "core/base/names_of.h"
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
     system_.constants.use_threads(static_cast<int>(number_option(settings, kThreadsOption)));
     state_.resize(scene.bodies.size(), orientation_ != nullptr && orientation_->keeps_matrix);
     set_initial_state(scene, state_.columns());
-    if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_), on_loop_ = joints_on_loops(scene);
+    if (!scene.joints.empty()) joints_ = std::make_unique<Joints>(scene, system_), note_loops(scene);
     if (anything_can_touch(scene)) {
       has_servos_ = JointStops::has_servos(scene);
       if (JointStops::has_speed_motors(scene))
@@ -117,6 +117,12 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   std::optional<double> sub_step() const override { return contact_ ? contact_->sub_step() : std::nullopt; }
 
  private:
+  // The rows of couplings stand behind those of joints. Each of them may repeat others.
+  void note_loops(const Scene& scene) {
+    on_loop_ = joints_on_loops(scene);
+    on_loop_.resize(scene.joints.size() + scene.couplings.size(), true);
+  }
+
   // Contact methods do not locate the events of servos.
   void step_between_samples(double t, double dt) {
     for (double from = t; from < t + dt;) {
@@ -147,17 +153,22 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   std::unique_ptr<Joints> joints_;      // null where there are none
   std::unique_ptr<JointStops> motors_;  // of given speed, where bodies can touch; null where there are none
   bool has_servos_ = false;
-  std::vector<bool> on_loop_;  // by joint: no other joint can be in a singular position
+  std::vector<bool> on_loop_;  // by joint, then by coupling: no other joint can be in a singular position
   SingularPassages passages_;
   std::unique_ptr<Stepper> stepper_;
   Clock clock_;
 };
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
-const Features kJointFeatures = joined(
-    joints_of_all_types(), {Feature::joint_spring, Feature::joint_damper, Feature::joint_friction,
-                            Feature::motor_effort, Feature::motor_servo, Feature::motor_speed, Feature::motor_table,
-                            Feature::joints_with_dampers, Feature::joint_limit, Feature::joint_limit_beyond_half_turn});
+const Features kJointFeatures =
+    joined(joints_of_all_types(),
+           {Feature::joint_spring, Feature::joint_damper, Feature::joint_friction, Feature::motor_effort,
+            Feature::motor_servo, Feature::motor_speed, Feature::motor_table, Feature::joints_with_dampers,
+            Feature::joint_limit, Feature::joint_limit_beyond_half_turn, Feature::armature, Feature::coupling});
+
+// What only a twin has that says so.
+const Features kBeyondTwins =
+    joined(joints_of_types<CompoundJoint, PlanarJoint, ScrewJoint>(), {Feature::armature, Feature::coupling});
 
 OptionInfo contact_option() {
   OptionInfo option{.name = "contact",
@@ -193,6 +204,10 @@ MethodInfo method_info(const Integrator& integrator) {
   if (!integrator.takes_joints) info.lacks = joined(info.lacks, kJointFeatures);
   if (!integrator.takes_dampers_with_joints) info.lacks.insert(Feature::joints_with_dampers);
   info.lacks = joined(info.lacks, integrator.lacks);
+  if (!integrator.twin_of.empty()) {
+    for (const Feature feature : kBeyondTwins)
+      if (!integrator.twin_takes.contains(feature)) info.lacks.insert(feature);
+  }
   return info;
 }
 

@@ -80,6 +80,11 @@ struct Make {
     const SharedFrame frame(a, b, center_b, Mat3::Identity());
     return std::make_unique<btFixedConstraint>(a, b, frame.in_a, frame.in_b);
   }
+  // None of these is among the features.
+  std::unique_ptr<btTypedConstraint> operator()(const CompoundAxis&) const { return nullptr; }
+  std::unique_ptr<btTypedConstraint> operator()(const CompoundJoint&) const { return nullptr; }
+  std::unique_ptr<btTypedConstraint> operator()(const PlanarJoint&) const { return nullptr; }
+  std::unique_ptr<btTypedConstraint> operator()(const ScrewJoint&) const { return nullptr; }
   std::unique_ptr<btTypedConstraint> operator()(const UniversalJoint& universal) const {
     const Vec3 z = universal.axis, x = universal.square_axis2();
     Mat3 axes;

@@ -66,6 +66,10 @@ struct AddLinks {
                        to_child(), !kCollidesWithParent);
   }
   void operator()(const DistanceJoint&) const {}  // refused before
+  void operator()(const CompoundAxis&) const {}   // none of these is among the features
+  void operator()(const CompoundJoint&) const {}
+  void operator()(const PlanarJoint&) const {}
+  void operator()(const ScrewJoint&) const {}
 };
 
 // Sets a joint's velocities from those of its ends in W.
@@ -99,6 +103,10 @@ struct SetVelocities {
   }
   void operator()(const FixedJoint&) const {}
   void operator()(const DistanceJoint&) const {}
+  void operator()(const CompoundAxis&) const {}  // none of these is among the features
+  void operator()(const CompoundJoint&) const {}
+  void operator()(const PlanarJoint&) const {}
+  void operator()(const ScrewJoint&) const {}
 };
 
 }  // namespace

@@ -191,6 +191,11 @@ struct MakeRows {
     return slider(joint.anchor, joint.axis, false);
   }
   std::unique_ptr<BulletJointRows> operator()(const DistanceJoint&) const { return nullptr; }
+  // None of these is among the features.
+  std::unique_ptr<BulletJointRows> operator()(const CompoundAxis&) const { return nullptr; }
+  std::unique_ptr<BulletJointRows> operator()(const CompoundJoint&) const { return nullptr; }
+  std::unique_ptr<BulletJointRows> operator()(const PlanarJoint&) const { return nullptr; }
+  std::unique_ptr<BulletJointRows> operator()(const ScrewJoint&) const { return nullptr; }
   std::unique_ptr<BulletJointRows> slider(const Vec3& point, const Vec3& axis, bool keeps_turn) const {
     return std::make_unique<Slider>(frames(point, axes(axis, axis.cross(axis.unitOrthogonal()))), keeps_turn);
   }

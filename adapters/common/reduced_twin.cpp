@@ -188,6 +188,11 @@ struct MakeStep {
     return std::make_unique<CylinderStep>(arms(joint.anchor).child, in_parent(joint.axis), in_child(joint.axis));
   }
   std::unique_ptr<JointStep> operator()(const DistanceJoint&) const { return nullptr; }
+  // No twin takes these.
+  std::unique_ptr<JointStep> operator()(const CompoundAxis&) const { return nullptr; }
+  std::unique_ptr<JointStep> operator()(const CompoundJoint&) const { return nullptr; }
+  std::unique_ptr<JointStep> operator()(const PlanarJoint&) const { return nullptr; }
+  std::unique_ptr<JointStep> operator()(const ScrewJoint&) const { return nullptr; }
 };
 
 class ReducedTwin : public Stepper {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/scene/joints/axis_series.h"
+
 namespace rigor {
 namespace {
 
@@ -32,6 +34,8 @@ class Clusters {
 // The least is taken first. A distance joint is never part of the tree.
 int rank_of(const Joint& joint) {
   return std::visit(ForJoints{[](const SliderJoint&) { return 0; }, [](const CylindricalJoint&) { return 1; },
+                              [](const CompoundAxis&) { return 1; }, [](const CompoundJoint&) { return 1; },
+                              [](const PlanarJoint&) { return 1; }, [](const ScrewJoint&) { return 1; },
                               [](const UniversalJoint&) { return 2; }, [](const HingeJoint&) { return 3; },
                               [](const FixedJoint&) { return 4; }, [](const BallJoint&) { return 5; },
                               [](const DistanceJoint&) { return 6; }},
@@ -55,6 +59,7 @@ Neighbours span(const Scene& scene, std::vector<int>& loops) {
   Neighbours neighbours(scene.bodies.size() + 1);
   for (const int k : joints) {
     const Joint& joint = scene.joints[k];
+    if (is_axis_of_compound(joint)) continue;
     const int a = moves(scene, joint.a) ? joint.a : kWorld, b = moves(scene, joint.b) ? joint.b : kWorld;
     if (std::holds_alternative<DistanceJoint>(joint.type) || !clusters.join(a, b)) {
       loops.push_back(k);
@@ -119,6 +124,23 @@ std::vector<double> speeds_about(const Vec3& first, const Vec3& second, const Ve
   return {w.cross(second).dot(normal) / squared, first.cross(w).dot(normal) / squared};
 }
 
+// From the parent outwards; of a body that hangs as a, they count the other way.
+std::vector<double> speeds_in_series(const Scene& scene, const Joint& joint, const CompoundJoint& compound,
+                                     bool hangs_as_b) {
+  const auto end = [&](int body) {
+    const StartingMotion motion = starting_motion(scene, body);
+    const BodyPose pose = scene.pose(body);
+    return SeriesEnd{pose.position, motion.velocity, motion.turning, matrix_of(pose.orientation)};
+  };
+  const AxisSeries::Rows rows =
+      AxisSeries(compound.axes, scene.pose(joint.a), scene.pose(joint.b)).at(end(joint.a), end(joint.b));
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i < compound.axes.size(); ++i)
+    speeds.push_back(hangs_as_b ? rows.coordinates[i].rate : -rows.coordinates[i].rate);
+  if (!hangs_as_b) std::reverse(speeds.begin(), speeds.end());
+  return speeds;
+}
+
 }  // namespace
 
 std::vector<double> hanging_speeds(const Scene& scene, const SpanningTree& tree, int body) {
@@ -132,20 +154,31 @@ std::vector<double> hanging_speeds(const Scene& scene, const SpanningTree& tree,
     return axis.dot(own.velocity + own.turning.cross(point - own.position) - carried);
   };
   return std::visit(
-      ForJoints{[&](const BallJoint&) -> Speeds {
-                  const Vec3 in_body = matrix_of(scene.bodies[body].orientation).transpose() * w;
-                  return {in_body.x(), in_body.y(), in_body.z()};
-                },
-                [&](const CylindricalJoint& cylinder) -> Speeds {
-                  return {speed_along(cylinder.axis, cylinder.anchor), cylinder.axis.dot(w)};
-                },
-                [](const DistanceJoint&) -> Speeds { return {}; }, [](const FixedJoint&) -> Speeds { return {}; },
-                [&](const HingeJoint& hinge) -> Speeds { return {hinge.axis.dot(w)}; },
-                [&](const SliderJoint& slider) -> Speeds { return {speed_along(slider.axis, own.position)}; },
-                [&](const UniversalJoint& universal) -> Speeds {
-                  return joint.b == body ? speeds_about(universal.axis, universal.axis2, w)
-                                         : speeds_about(universal.axis2, universal.axis, w);
-                }},
+      ForJoints{
+          [&](const BallJoint&) -> Speeds {
+            const Vec3 in_body = matrix_of(scene.bodies[body].orientation).transpose() * w;
+            return {in_body.x(), in_body.y(), in_body.z()};
+          },
+          [&](const CylindricalJoint& cylinder) -> Speeds {
+            return {speed_along(cylinder.axis, cylinder.anchor), cylinder.axis.dot(w)};
+          },
+          [&](const CompoundJoint& compound) { return speeds_in_series(scene, joint, compound, joint.b == body); },
+          [](const CompoundAxis&) -> Speeds { return {}; }, [](const DistanceJoint&) -> Speeds { return {}; },
+          [](const FixedJoint&) -> Speeds { return {}; },
+          [&](const PlanarJoint& planar) -> Speeds {
+            const PlaneDirections plane(planar.normal);
+            return {speed_along(plane.first, planar.anchor), speed_along(plane.second, planar.anchor),
+                    planar.normal.dot(w)};
+          },
+          [&](const ScrewJoint& screw) -> Speeds {
+            return {speed_along(screw.axis, screw.anchor), screw.axis.dot(w)};
+          },
+          [&](const HingeJoint& hinge) -> Speeds { return {hinge.axis.dot(w)}; },
+          [&](const SliderJoint& slider) -> Speeds { return {speed_along(slider.axis, own.position)}; },
+          [&](const UniversalJoint& universal) -> Speeds {
+            return joint.b == body ? speeds_about(universal.axis, universal.axis2, w)
+                                   : speeds_about(universal.axis2, universal.axis, w);
+          }},
       joint.type);
 }
 

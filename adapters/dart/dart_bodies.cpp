@@ -110,7 +110,8 @@ class SkeletonMaker {
               made->setAxis1(to_body * (is_b ? universal.axis : axis2));
               made->setAxis2(to_body * (is_b ? axis2 : universal.axis));
               return made;
-            }},
+            },
+            LackingJoints<dyn::Joint*, CompoundAxis, CompoundJoint, PlanarJoint, ScrewJoint>()},
         joint.type);
   }
 

@@ -198,7 +198,8 @@ void DartWorld::close_loops(const Scene& scene, const SpanningTree& tree) {
                                       : std::make_shared<con::WeldJointConstraint>(first));
                          },
                          [](const CylindricalJoint&) {}, [](const DistanceJoint&) {},  // not among the features
-                         [](const SliderJoint&) {}, [](const UniversalJoint&) {}},     // refused by closes_loops()
+                         [](const SliderJoint&) {}, [](const UniversalJoint&) {},      // refused by closes_loops()
+                         LackingJoints<void, CompoundAxis, CompoundJoint, PlanarJoint, ScrewJoint>()},
                joint.type);
   }
 }

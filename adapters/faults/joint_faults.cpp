@@ -35,6 +35,14 @@ std::vector<Fault> joint_faults() {
                    const Vec3 anchor = hinge.anchor;
                    joint.type = BallJoint{anchor};
                  })),
+      on_loading("an armature left out",
+                 [](Scene& s) {
+                   for (Joint& joint : s.joints) joint.armature = 0;
+                 }),
+      on_loading("a coupling's ratio inverted",
+                 [](Scene& s) {
+                   for (Coupling& coupling : s.couplings) coupling.ratio = 1 / coupling.ratio;
+                 }),
       on_loading("a joint left out", [](Scene& s) { s.joints.clear(); }),
   };
 }

@@ -188,22 +188,29 @@ class Exporter {
   Vec3 direction_in(int body, const Vec3& in_W) const { return scene_.pose(body).orientation.conjugate() * in_W; }
 
   void add_joint(int body, int index, int indent) {
-    const Joint& joint = scene_.joints[index];
-    const bool is_reversed = free_axis(joint) && joint.b != body;  // MuJoCo counts from the parent to what hangs on it
-    std::string name = joint_name(index);
-    for (const MjcfJoint& row : mjcf_joints(joint, body)) {
-      add("{:{}}<joint name=\"{}\" type=\"{}\" pos=\"{}\"", "", indent, name, row.type,
+    // MuJoCo counts from the parent to what hangs on it.
+    const bool is_reversed = scene_.joints[index].b != body;
+    const std::vector<MjcfJoint> rows = mjcf_joints(scene_, index, body);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const MjcfJoint& row = rows[k];
+      add("{:{}}<joint name=\"{}\" type=\"{}\" pos=\"{}\"", "", indent,
+          row.coordinate >= 0 ? joint_name(row.coordinate) : element_name(index, k), row.type,
           numbers(row.point ? point_in(body, *row.point) : Vec3::Zero().eval()));
-      if (row.axis) add(" axis=\"{}\"", numbers(direction_in(body, is_reversed ? Vec3(-*row.axis) : *row.axis)));
-      if (free_axis(joint)) add("{}", coordinate_of(joint));
+      const bool is_turned_round = is_reversed && row.coordinate >= 0;
+      if (row.axis) add(" axis=\"{}\"", numbers(direction_in(body, is_turned_round ? Vec3(-*row.axis) : *row.axis)));
+      if (row.coordinate >= 0) add("{}", coordinate_of(scene_.joints[row.coordinate]));
       add("/>\n");
-      name += "/2";
     }
+  }
+
+  std::string element_name(int joint, std::size_t element) const {
+    return joint_name(joint) + (element == 0 ? "" : element == 1 ? "/2" : "/3");
   }
 
   static std::string coordinate_of(const Joint& joint) {
     std::string text =
         fmt::format(R"( stiffness="{}" springref="{}" damping="{}")", joint.stiffness, joint.rest, joint.damping);
+    if (joint.armature > 0) text += fmt::format(R"( armature="{}")", joint.armature);
     constexpr double kFar = 1e6;  // MuJoCo bounds a joint on both sides or on none
     if (joint.has_limits())
       text +=
@@ -236,7 +243,8 @@ class Exporter {
           fmt::format(R"(body1="{}"{})", escaped(scene_.body_name(first)),
                       second == kWorld ? "" : fmt::format(R"( body2="{}")", escaped(scene_.body_name(second))));
       MjcfLoop loop = mjcf_loop(joint);
-      if (loop.points.size() > 1 && (joint.stiffness != 0 || joint.damping != 0 || joint.has_limits()))
+      if (loop.points.size() > 1 &&
+          (joint.stiffness != 0 || joint.damping != 0 || joint.armature != 0 || joint.has_limits()))
         loop = {MjcfLoop::Equality::none};
       if (loop.equality == MjcfLoop::Equality::none)
         leave_out(
@@ -247,7 +255,23 @@ class Exporter {
       for (const Vec3& point : loop.points)
         add("    <connect {} anchor=\"{}\"/>\n", bodies, numbers(point_in(first, point)));
     }
+    add_couplings();
     add("  </equality>\n");
+  }
+
+  void add_couplings() {
+    for (std::size_t k = 0; k < scene_.couplings.size(); ++k) {
+      const Coupling& coupling = scene_.couplings[k];
+      if (closes_loop(scene_, tree_, coupling.joint) || closes_loop(scene_, tree_, coupling.to))
+        leave_out(scene_.coupling_name(k), "is of a joint that closes a loop, which has no coordinate in MuJoCo");
+    }
+    constexpr std::size_t kScrews = 2;  // elements of a screw; other joints with a coordinate have one
+    const auto name = [&](int joint, std::size_t element) {
+      return element < kScrews ? element_name(joint, element) : joint_name(joint);
+    };
+    for (const MjcfCoupling& row : mjcf_couplings(scene_, tree_, name, [](int) { return 1.0; }))
+      add("    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\"/>\n", row.first, row.second, row.constant,
+          row.ratio);
   }
 
   void add_motors() {
@@ -270,9 +294,11 @@ class Exporter {
     std::vector<double> velocities = mujoco_velocities(scene_, tree_, made);
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {  // an axis that was turned round counts the other way
       const int joint = tree_.links[i].joint;
-      if (!scene_.bodies[i].fixed && joint >= 0 && free_axis(scene_.joints[joint]) &&
-          scene_.joints[joint].b != static_cast<int>(i))
-        velocities[static_cast<std::size_t>(made.model->body_dofadr[made.body[i]])] *= -1;
+      if (scene_.bodies[i].fixed || joint < 0 || scene_.joints[joint].b == static_cast<int>(i)) continue;
+      const std::vector<MjcfJoint> rows = mjcf_joints(scene_, joint, static_cast<int>(i));
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        if (rows[k].coordinate >= 0)
+          velocities[static_cast<std::size_t>(made.model->body_dofadr[made.body[i]]) + k] *= -1;
     }
     return fmt::format("  <keyframe>\n    <key name=\"start\" qvel=\"{}\"/>\n  </keyframe>\n",
                        fmt::join(velocities, " "));

@@ -207,22 +207,29 @@ class Writer {
   }
 
   void write_joint(int body, int index) {
-    const Joint& joint = scene_.joints[index];
-    const double sign = joint.b == body ? 1 : -1;
-    const std::vector<MjcfJoint> rows = mjcf_joints(joint, body);
+    const double sign = scene_.joints[index].b == body ? 1 : -1;
+    const std::vector<MjcfJoint> rows = mjcf_joints(scene_, index, body);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const MjcfJoint& row = rows[k];
-      add(R"(<joint name="j{}{}" type="{}" pos="{}")", index,
-          rows.size() == 1 ? ""
-          : k == 0         ? "x"
-                           : "y",
+      const bool is_one_of_several = rows.size() > 1 && row.coordinate < 0;
+      add(R"(<joint name="{}" type="{}" pos="{}")",
+          row.coordinate >= 0 ? fmt::format("j{}", row.coordinate)
+                              : element_name(index, is_one_of_several ? k : kOnlyElement),
           row.type, text_of(row.point ? point_in(body, *row.point) : Vec3::Zero().eval()));
       if (row.axis) add(R"( axis="{}")", text_of(direction_in(body, *row.axis)));
-      if (free_axis(joint))
-        add(R"( stiffness="{}" springref="{}" damping="{}"{})", joint.stiffness, sign * joint.rest, joint.damping,
-            limits_of(joint, sign));
+      if (row.coordinate >= 0) {
+        const Joint& joint = scene_.joints[row.coordinate];
+        add(R"( stiffness="{}" springref="{}" damping="{}" armature="{}"{})", joint.stiffness, sign * joint.rest,
+            joint.damping, joint.armature, limits_of(joint, sign));
+      }
       add("/>");
     }
+  }
+
+  static constexpr std::size_t kOnlyElement = 3;
+  static std::string element_name(int joint, std::size_t element) {
+    static constexpr const char* kEnds[] = {"x", "y", "z", ""};
+    return fmt::format("j{}{}", joint, kEnds[element]);
   }
 
   // MuJoCo's coordinates count whole turns, as the scene's limits do.
@@ -250,6 +257,17 @@ class Writer {
   void write_loops() {
     add("<equality>\n");
     for (const int k : tree_.loops) write_loop(k);
+    for (const Coupling& coupling : scene_.couplings) {
+      for (const int joint : {coupling.joint, coupling.to})
+        if (closes_loop(scene_, tree_, joint)) refuse(joint);
+    }
+    const auto sign_of = [&](int joint) {
+      return scene_.joints[joint].b == body_on(scene_, tree_, joint) ? 1.0 : -1.0;
+    };
+    const auto name = [](int joint, std::size_t element) { return element_name(joint, element); };
+    for (const MjcfCoupling& row : mjcf_couplings(scene_, tree_, name, sign_of))
+      add("<joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\"/>\n", row.first, row.second, row.constant,
+          row.ratio);
     add("</equality>\n");
   }
 
@@ -258,10 +276,15 @@ class Writer {
     const Joint& joint = scene_.joints[index];
     const bool has_motor = std::any_of(scene_.motors.begin(), scene_.motors.end(),
                                        [&](const Motor& motor) { return motor.joint == index; });
-    if (joint.stiffness == 0 && joint.damping == 0 && !has_motor && !joint.has_limits()) return;
-    throw EngineFailure(FailureKind::unsupported,
-                        fmt::format("{} closes a loop of joints, where MuJoCo has no spring, damper, limit or motor",
-                                    scene_.joint_name(static_cast<std::size_t>(index))));
+    if (joint.stiffness == 0 && joint.damping == 0 && joint.armature == 0 && !has_motor && !joint.has_limits()) return;
+    refuse(index);
+  }
+  [[noreturn]] void refuse(int index) const {
+    throw EngineFailure(
+        FailureKind::unsupported,
+        fmt::format(
+            "{} closes a loop of joints, where MuJoCo has no spring, damper, limit, motor, armature or coupling",
+            scene_.joint_name(static_cast<std::size_t>(index))));
   }
 
   void write_loop(int index) {
@@ -323,47 +346,6 @@ std::string mjcf_mesh(const Convex& convex, const std::string& name) {
   std::string points;
   for (const Vec3& point : convex.hull->points) points += (points.empty() ? "" : "  ") + text_of(point);
   return fmt::format("<mesh name=\"{}\" vertex=\"{}\"/>\n", name, points);
-}
-
-std::vector<MjcfJoint> mjcf_joints(const Joint& joint, int hanging_body) {
-  using Elements = std::vector<MjcfJoint>;
-  return std::visit(
-      ForJoints{[](const BallJoint& type) -> Elements {
-                  return {{"ball", &type.anchor, nullptr}};
-                },
-                [](const CylindricalJoint& type) -> Elements {
-                  return {{"slide", nullptr, &type.axis}, {"hinge", &type.anchor, &type.axis}};
-                },
-                [](const DistanceJoint&) -> Elements { return {}; }, [](const FixedJoint&) -> Elements { return {}; },
-                [](const HingeJoint& type) -> Elements {
-                  return {{"hinge", &type.anchor, &type.axis}};
-                },
-                [](const SliderJoint& type) -> Elements {
-                  return {{"slide", nullptr, &type.axis}};
-                },
-                [&](const UniversalJoint& type) -> Elements {
-                  const bool is_b = joint.b == hanging_body;
-                  return {{"hinge", &type.anchor, is_b ? &type.axis : &type.axis2},
-                          {"hinge", &type.anchor, is_b ? &type.axis2 : &type.axis}};
-                }},
-      joint.type);
-}
-
-MjcfLoop mjcf_loop(const Joint& joint) {
-  using Equality = MjcfLoop::Equality;
-  const auto none = [](const auto&) -> MjcfLoop { return {Equality::none}; };
-  return std::visit(ForJoints{[](const BallJoint& type) -> MjcfLoop {
-                                return {Equality::connect, {type.anchor}};
-                              },
-                              [&](const CylindricalJoint& type) { return none(type); },
-                              [](const DistanceJoint&) -> MjcfLoop { return {Equality::tendon}; },
-                              [](const FixedJoint&) -> MjcfLoop { return {Equality::weld}; },
-                              [](const HingeJoint& type) -> MjcfLoop {
-                                return {Equality::connect, {type.anchor, type.anchor + type.axis}};
-                              },
-                              [&](const SliderJoint& type) { return none(type); },
-                              [&](const UniversalJoint& type) { return none(type); }},
-                    joint.type);
 }
 
 std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings) {

@@ -1,11 +1,13 @@
 // A scene in MJCF, MuJoCo's own XML. Bodies are called b0, b1, … by their index, their shapes g0, g1, …, joints j0 (and
-// j0x, j0y where a joint has two elements), springs s0, distance joints d0.
+// j0x, j0y, j0z where a joint has several elements), springs s0, distance joints d0.
 //
 // MuJoCo's conventions and ours: SI here and there; quaternions (w, x, y, z), body to world; a body's frame is that of
 // its parent's child, and we set its origin at the centre of mass as ours; a capsule by its half length along z, a box
 // by half edges, a plane by a frame whose z is the normal.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,10 +31,26 @@ std::string mjcf_geom_name(int body, int part);
 // of several moves with the parent. A fixed joint has none.
 struct MjcfJoint {
   const char* type;
-  const Vec3* point;  // m, in W; null: the body's centre
-  const Vec3* axis;   // in W; null for a ball
+  std::optional<Vec3> point;  // m, in W; absent: the body's centre
+  std::optional<Vec3> axis;   // in W; absent for a ball
+  int coordinate = -1;        // the joint of the scene whose coordinate it is, or -1
 };
-std::vector<MjcfJoint> mjcf_joints(const Joint& joint, int hanging_body);
+std::vector<MjcfJoint> mjcf_joints(const Scene& scene, int joint, int hanging_body);
+
+// How a coupling is written, between the coordinates of two elements: first = constant + ratio second.
+struct MjcfCoupling {
+  std::string first, second;
+  double constant, ratio;
+};
+// Those of the scene's couplings and screws; `name_of(joint, element)` names an element, and `sign_of(joint)` is -1
+// where an element counts against the scene's coordinate.
+using MjcfElementName = std::function<std::string(int joint, std::size_t element)>;
+std::vector<MjcfCoupling> mjcf_couplings(const Scene& scene, const SpanningTree& tree, const MjcfElementName& name_of,
+                                         const std::function<double(int joint)>& sign_of);
+// Whether the scene's joint closes a loop, or is the axis of one that does.
+bool closes_loop(const Scene& scene, const SpanningTree& tree, int joint);
+// The body that hangs on its parent by this joint or by its compound joint; kWorld if it closes a loop.
+int body_on(const Scene& scene, const SpanningTree& tree, int joint);
 
 // The equality that closes a loop. A hinge is two points on its axis, a metre apart: of their six rows five count.
 struct MjcfLoop {

@@ -28,9 +28,7 @@ bool is_diagonal(const Mat3& m) { return m(0, 1) == 0 && m(0, 2) == 0 && m(1, 2)
 MujocoModel::Coordinate coordinate_of(const mjModel& model, const Scene& scene, const SpanningTree& tree, int joint) {
   const int id = mj_name2id(&model, mjOBJ_JOINT, fmt::format("j{}", joint).c_str());
   if (id < 0 || !free_axis(scene.joints[joint])) return {};
-  const int below = scene.joints[joint].b;
-  const bool hangs = below != kWorld && tree.links[below].joint == joint;
-  return {model.jnt_dofadr[id], hangs ? 1.0 : -1.0};
+  return {model.jnt_dofadr[id], scene.joints[joint].b == body_on(scene, tree, joint) ? 1.0 : -1.0};
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "adapters/mujoco/mujoco_reactions.h"
 
+#include <algorithm>
+
 #include "adapters/mujoco/mujoco_mjcf.h"
 
 namespace rigor {
@@ -27,7 +29,12 @@ MujocoReactions::MujocoReactions(const Scene& scene, const SpanningTree& tree, c
     if (!scene.bodies[static_cast<std::size_t>(i)].fixed && joint >= 0)
       hanging_.emplace_back(joint, HangingJoint(scene, joint, i));
   }
-  are_said_ = scene.springs.empty() && method != "rk4";
+  are_said_ = scene.springs.empty() && scene.couplings.empty() && method != "rk4" &&
+              std::none_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
+                return joint.armature > 0 || std::holds_alternative<CompoundJoint>(joint.type) ||
+                       std::holds_alternative<PlanarJoint>(joint.type) ||
+                       std::holds_alternative<ScrewJoint>(joint.type);
+              });
   for (const int k : tree.loops) {
     const Joint& joint = scene.joints[static_cast<std::size_t>(k)];
     const MjcfLoop loop = mjcf_loop(joint);

@@ -168,6 +168,7 @@ const Integrator kMujocoEulerTwin = {
     .lacks = {joint_feature<DistanceJoint>(), Feature::joint_damper, Feature::joint_limit, Feature::joint_loop,
               Feature::joint_friction, Feature::motor_servo, Feature::motor_speed},
     .twin_of = "mujoco",
+    .twin_takes = {Feature::armature},
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, exact_turn); }};
 
 const Integrator kMujocoImplicitTwin = {.name = "mujoco-implicit-twin",

@@ -62,6 +62,10 @@ struct OdeJoints::Maker {
     dJointSetDBallAnchor2(id, other.x(), other.y(), other.z());  // with it, the distance
     return id;
   }
+  dJointID operator()(const CompoundAxis&) const { return nullptr; }  // none of these is among the features
+  dJointID operator()(const CompoundJoint&) const { return nullptr; }
+  dJointID operator()(const PlanarJoint&) const { return nullptr; }
+  dJointID operator()(const ScrewJoint&) const { return nullptr; }
   dJointID operator()(const UniversalJoint& universal) const {
     const dJointID id = attached(dJointCreateUniversal(world, nullptr));
     const auto [one, other] = ends.axes(universal);

@@ -197,6 +197,10 @@ struct MakeRows {
     const auto [one, other] = ends.points(distance);
     return std::make_unique<OdeDistance>(one, other, first, second);
   }
+  Rows operator()(const CompoundAxis&) const { return nullptr; }  // none of these is among the features
+  Rows operator()(const CompoundJoint&) const { return nullptr; }
+  Rows operator()(const PlanarJoint&) const { return nullptr; }
+  Rows operator()(const ScrewJoint&) const { return nullptr; }
   Rows operator()(const UniversalJoint& universal) const {
     const auto [one, other] = ends.axes(universal);
     return std::make_unique<OdeUniversal>(universal.anchor, one, other, first, second);

@@ -16,6 +16,11 @@ Mobilizer mobilizer_of(const Scene& scene, int body, const SpanningTree::Link& l
   return std::visit(
       ForJoints{
           [&](const BallJoint& ball) { return made(MobilizerKind::ball, straight, ball.anchor); },
+          // Not among the features.
+          [&](const CompoundAxis&) { return made(MobilizerKind::free, straight, centre); },
+          [&](const CompoundJoint&) { return made(MobilizerKind::free, straight, centre); },
+          [&](const PlanarJoint&) { return made(MobilizerKind::free, straight, centre); },
+          [&](const ScrewJoint&) { return made(MobilizerKind::free, straight, centre); },
           [&](const CylindricalJoint& cylinder) {
             return made(MobilizerKind::cylinder, axes_with(2, cylinder.axis), cylinder.anchor);
           },

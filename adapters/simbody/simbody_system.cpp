@@ -199,7 +199,8 @@ void SimbodySystem::add_constraints(const Joint& joint) {
                        [&](const SliderJoint& slider) { same_orientation(), share_line(slider.axis, pose_b.position); },
                        [&](const UniversalJoint& universal) {
                          share_point(universal.anchor), at_right_angles(universal.axis, universal.axis2);
-                       }},
+                       },
+                       LackingJoints<void, CompoundAxis, CompoundJoint, PlanarJoint, ScrewJoint>()},
              joint.type);
 }
 

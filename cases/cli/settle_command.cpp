@@ -20,8 +20,10 @@ namespace {
 
 // Changes only bodies with joints, and nothing if no joint is broken.
 void settle(Scene& scene) {
-  const auto breaks = [&](const Joint& joint) { return !why_rates_break(scene, joint).empty(); };
-  if (std::none_of(scene.joints.begin(), scene.joints.end(), breaks)) return;
+  const auto breaks = [&](const auto& row) { return !why_rates_break(scene, row).empty(); };
+  if (std::none_of(scene.joints.begin(), scene.joints.end(), breaks) &&
+      std::none_of(scene.couplings.begin(), scene.couplings.end(), breaks))
+    return;
   BodyTable state(scene.bodies.size());
   set_initial_state(scene, state.columns());
   Scene at_rest = scene;  // velocities that break joints would only disturb

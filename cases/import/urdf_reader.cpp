@@ -199,9 +199,7 @@ class UrdfReader {
     if (slides) row.joint.type = SliderJoint{along};
     if (turns) row.joint.type = HingeJoint{Vec3::Zero(), along};
     if (type == "fixed") row.joint.type = FixedJoint{};
-#if __has_include("core/scene/joints/planar_joint.h")
     if (type == "planar") row.joint.type = PlanarJoint{Vec3::Zero(), along};
-#endif
     if (!slides && !turns) return;
     if (dynamics) {
       dynamics->check({{"damping", "friction"}, {}}, model_.left_out);
@@ -334,20 +332,11 @@ class UrdfReader {
     });
   }
 
-  bool is_apart(std::size_t k) {
-    if (types_[k] != "planar") return false;
-#if __has_include("core/scene/joints/planar_joint.h")
-    return false;
-#endif
-    model_.left_out.add(rows_[k].where, "a planar joint", lost("no scene has this joint: the two links come apart"));
-    return true;
-  }
-
   // All joints are kept, so that mimics find them; a floating one is no joint of a scene.
   void keep_joints() {
     std::vector<int> place(rows_.size(), -1);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      if (types_[k] == "floating" || is_apart(k)) continue;
+      if (types_[k] == "floating") continue;
       place[k] = static_cast<int>(model_.joints.size());
       model_.joints.push_back(rows_[k]);
     }

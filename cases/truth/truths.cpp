@@ -21,6 +21,7 @@ TruthRow linkage_truth();
 TruthRow oscillator_truth();
 TruthRow pendulum_truth();
 TruthRow pendulum_impacts_truth();
+TruthRow planar_truth();
 TruthRow principal_torque_truth();
 TruthRow projectile_truth();
 TruthRow pushed_truth();
@@ -31,16 +32,19 @@ TruthRow sliding_truth();
 TruthRow sprung_ball_truth();
 TruthRow steady_precession_truth();
 TruthRow toppling_truth();
+TruthRow transmission_truth();
 TruthRow welded_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
-      asymmetric_top_truth(), axisymmetric_top_truth(), bounce_truth(),           cardan_shaft_truth(),
-      events_truth(),         heavy_top_truth(),        line_impacts_truth(),     linkage_truth(),
-      oscillator_truth(),     pendulum_truth(),         pendulum_impacts_truth(), principal_torque_truth(),
-      projectile_truth(),     pushed_truth(),           reference_truth(),        rolling_truth(),
-      slider_truth(),         sliding_truth(),          sprung_ball_truth(),      steady_precession_truth(),
-      toppling_truth(),       welded_truth(),
+      asymmetric_top_truth(),   axisymmetric_top_truth(), bounce_truth(),
+      cardan_shaft_truth(),     events_truth(),           heavy_top_truth(),
+      line_impacts_truth(),     linkage_truth(),          oscillator_truth(),
+      pendulum_truth(),         pendulum_impacts_truth(), planar_truth(),
+      principal_torque_truth(), projectile_truth(),       pushed_truth(),
+      reference_truth(),        rolling_truth(),          slider_truth(),
+      sliding_truth(),          sprung_ball_truth(),      steady_precession_truth(),
+      toppling_truth(),         transmission_truth(),     welded_truth(),
   };
   return table;
 }

@@ -11,6 +11,7 @@ class Bridges {
  public:
   explicit Bridges(const Scene& scene) : scene_(scene), edges_(scene.bodies.size() + 1), on_loop_(scene.joints.size()) {
     for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
+      if (is_axis_of_compound(scene.joints[joint])) continue;
       edges_[node(scene.joints[joint].a)].push_back(joint);
       edges_[node(scene.joints[joint].b)].push_back(joint);
     }

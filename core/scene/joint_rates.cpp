@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/joints/axis_series.h"
 
 namespace rigor {
 namespace {
@@ -35,6 +39,27 @@ struct RatesOf {
     const Vec3 from = a.in_world(distance.point_a), to = b.in_world(distance.point_b);
     return {std::abs((to - from).stableNormalized().dot(b.velocity_at(to) - a.velocity_at(from))), 0};
   }
+  JointRates operator()(const CompoundAxis&) const { return {}; }
+  JointRates operator()(const CompoundJoint& compound) const {
+    const AxisSeries::Rows rows =
+        AxisSeries(compound.axes, {a.position, a.orientation}, {b.position, b.orientation}).at(end(a), end(b));
+    JointRates rates;
+    for (int k = 0; k < rows.count; ++k) {
+      const AxisSeries::Row& row = rows.locked[static_cast<std::size_t>(k)];
+      double& out = row.force.isZero(0) ? rates.turn_rate : rates.speed;
+      out = std::hypot(out, row.rate);
+    }
+    return rates;
+  }
+  JointRates operator()(const PlanarJoint& planar) const {
+    const Vec3 v = b.velocity_at(planar.anchor) - a.velocity_at(planar.anchor);
+    return {std::abs(planar.normal.dot(v)), across(turning(), planar.normal).norm()};
+  }
+  JointRates operator()(const ScrewJoint& screw) const {
+    const Vec3 v = speed_at(screw.anchor);
+    const double off_thread = screw.axis.dot(v) - screw.pitch / (2 * std::numbers::pi) * screw.axis.dot(turning());
+    return {std::hypot(across(v, screw.axis).norm(), off_thread), across(turning(), screw.axis).norm()};
+  }
   template <typename Type>
   JointRates operator()(const Type&) const {
     constexpr unsigned locks = Type::descriptor().locks.value();
@@ -45,6 +70,9 @@ struct RatesOf {
 
  private:
   Vec3 speed_at(const Vec3& point) const { return b.velocity_at(point) - a.velocity_at(point); }
+  static SeriesEnd end(const Motion& motion) {
+    return {motion.position, motion.velocity, motion.angular_velocity, matrix_of(motion.orientation)};
+  }
   Vec3 turning() const { return b.angular_velocity - a.angular_velocity; }
   static double locked_part(const Vec3& rate, const Vec3* axis, unsigned locks, unsigned across_axis) {
     if (locks == 0) return 0;
@@ -53,6 +81,33 @@ struct RatesOf {
 };
 
 }  // namespace
+
+// Of a joint's free coordinate [rad/s, m/s].
+static double initial_coordinate_rate(const Scene& scene, const Joint& joint) {
+  const Motion a(scene, joint.a), b(scene, joint.b);
+  if (const auto* axis = std::get_if<CompoundAxis>(&joint.type)) {
+    const auto end = [](const Motion& m) {
+      return SeriesEnd{m.position, m.velocity, m.angular_velocity, matrix_of(m.orientation)};
+    };
+    return AxisSeries(axis->axes, {a.position, a.orientation}, {b.position, b.orientation})
+        .at(end(a), end(b))
+        .coordinates[axis->index]
+        .rate;
+  }
+  const Vec3& axis = *free_axis(joint);
+  if (turns(joint)) return axis.dot(b.angular_velocity - a.angular_velocity);
+  return axis.dot(b.velocity - a.velocity_at(b.position));
+}
+
+std::string why_rates_break(const Scene& scene, const Coupling& coupling) {
+  const double rate = initial_coordinate_rate(scene, scene.joints[static_cast<std::size_t>(coupling.joint)]),
+               to = initial_coordinate_rate(scene, scene.joints[static_cast<std::size_t>(coupling.to)]);
+  if (std::abs(rate - coupling.ratio * to) <= kNoRate * (1 + std::abs(rate) + std::abs(coupling.ratio * to))) return "";
+  return fmt::format(
+      "the initial velocities break it: the rates of the two coordinates are {:.6g} and {:.6g}, and the "
+      "ratio is {:.6g}",
+      rate, to, coupling.ratio);
+}
 
 JointRates initial_rates(const Scene& scene, const Joint& joint) {
   return std::visit(RatesOf{joint, Motion(scene, joint.a), Motion(scene, joint.b)}, joint.type);

@@ -19,5 +19,6 @@ inline constexpr double kNoRate = 1e-9;  // m/s, rad/s for each 1 + the fastest 
 
 // "" if the joint's initial velocities keep it, else how they do not: "they part at 0.1 m/s and 0 rad/s".
 std::string why_rates_break(const Scene& scene, const Joint& joint);
+std::string why_rates_break(const Scene& scene, const Coupling& coupling);
 
 }  // namespace rigor

@@ -43,7 +43,7 @@ std::vector<Need> joint_traits_of(const Scene& scene) {
   std::vector<Need> traits;
   ConnectedBodies connected(scene);
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
-    if (connected.connect(scene.joints[k].a, scene.joints[k].b)) continue;
+    if (is_axis_of_compound(scene.joints[k]) || connected.connect(scene.joints[k].a, scene.joints[k].b)) continue;
     traits.push_back({Feature::joint_loop, scene.joint_name(k)});
     break;
   }

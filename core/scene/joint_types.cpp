@@ -14,7 +14,9 @@ JointTypeInfo row_of_type() {
     keys.push_back(key);
     vector.setZero();
   });
-  return {descriptor.word, descriptor.meaning, std::move(keys), descriptor.coordinate, prototype};
+  if (descriptor.number.key) keys.push_back(descriptor.number.key);
+  return {descriptor.word,       descriptor.meaning, std::move(keys),
+          descriptor.coordinate, prototype,          !std::is_same_v<Type, CompoundAxis>};
 }
 
 template <typename... Types>

@@ -28,19 +28,35 @@ std::string Scene::joint_name(std::size_t index) const {
   return fmt::format("the {} of '{}' and '{}'", joint_type_name(joint), body_name(joint.a), body_name(joint.b));
 }
 
+std::string Scene::coupling_name(std::size_t index) const {
+  const Coupling& row = couplings[index];
+  return fmt::format("the coupling of {} to {}", joint_name(static_cast<std::size_t>(row.joint)),
+                     joint_name(static_cast<std::size_t>(row.to)));
+}
+
 BodyPose Scene::pose(int body) const {
   return body == kWorld ? BodyPose{} : BodyPose{bodies[body].position, bodies[body].orientation};
 }
 
 std::string joint_type_name(const Joint& joint) { return joint_types()[joint.type.index()].word; }
 
-bool turns(const Joint& joint) { return joint_types()[joint.type.index()].coordinate == FreeCoordinate::angle; }
+bool is_axis_of_compound(const Joint& joint) { return std::holds_alternative<CompoundAxis>(joint.type); }
 
-const Vec3* anchor_of(const Joint& joint) { return first_of_kind(joint, JointVector::point); }
+bool turns(const Joint& joint) {
+  if (const auto* axis = std::get_if<CompoundAxis>(&joint.type)) return axis->own().turns;
+  return joint_types()[joint.type.index()].coordinate == FreeCoordinate::angle;
+}
+
+const Vec3* anchor_of(const Joint& joint) {
+  if (const auto* axis = std::get_if<CompoundAxis>(&joint.type))
+    return axis->own().turns ? &axis->own().anchor : nullptr;
+  return first_of_kind(joint, JointVector::point);
+}
 
 const Vec3* axis_of(const Joint& joint) { return first_of_kind(joint, JointVector::direction); }
 
 const Vec3* free_axis(const Joint& joint) {
+  if (const auto* axis = std::get_if<CompoundAxis>(&joint.type)) return &axis->own().axis;
   return joint_types()[joint.type.index()].coordinate == FreeCoordinate::none ? nullptr : axis_of(joint);
 }
 

@@ -57,8 +57,17 @@ struct Joint {
   double lower = -std::numeric_limits<double>::infinity();  // rad, m; at most 0
   double upper = std::numeric_limits<double>::infinity();   // rad, m; at least 0
   double restitution = 0;                                   // of its limits, 0..1
+  double armature = 0;  // kg m², kg: of its rotor; adds armature x'^2 / 2 of energy
 
   bool has_limits() const { return std::isfinite(lower) || std::isfinite(upper); }
+};
+
+// coordinate(joint) = ratio coordinate(to) + offset: gears, rack and pinion, mimic joints. Every coordinate is 0 at t =
+// 0, so the offset is 0 within rounding.
+struct Coupling {
+  int joint = 0, to = 0;  // of Scene::joints, with a coordinate each
+  double ratio = 1;       // rad or m of `joint` for each rad or m of `to`
+  double offset = 0;      // rad, m
 };
 
 // Values of a pair of bodies, because engines combine per-body values by different rules.
@@ -89,6 +98,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Spring> springs;
   std::vector<Joint> joints;
+  std::vector<Coupling> couplings;
   std::vector<Motor> motors;
   std::vector<ContactPair> contact_pairs;
   ContactLaw contact_default;  // for each pair without a row of its own
@@ -96,12 +106,16 @@ struct Scene {
 
   ContactLaw contact_law(int a, int b) const;  // the order of a and b does not matter
   std::string body_name(int index) const { return index == kWorld ? "world" : bodies[index].name; }
-  std::string joint_name(std::size_t index) const;  // its own, or "the hinge of 'world' and 'rod'"
-  BodyPose pose(int body) const;                    // at t = 0; of the world, W itself
+  std::string joint_name(std::size_t index) const;     // its own, or "the hinge of 'world' and 'rod'"
+  std::string coupling_name(std::size_t index) const;  // "the coupling of joint 'a' to joint 'b'"
+  BodyPose pose(int body) const;                       // at t = 0; of the world, W itself
 };
 
 // The word of the joint's type in case files: "hinge".
 std::string joint_type_name(const Joint& joint);
+
+// Whether the row stands for an axis of the compound joint before it. It holds nothing together by itself.
+bool is_axis_of_compound(const Joint& joint);
 
 // Whether the joint's free coordinate is an angle.
 bool turns(const Joint& joint);

@@ -19,11 +19,6 @@ using Fault = std::optional<SceneFault>;
 bool is_body(int index, const Scene& scene) { return index >= 0 && index < static_cast<int>(scene.bodies.size()); }
 bool can_move(int index, const Scene& scene) { return index != kWorld && !scene.bodies[index].fixed; }
 
-Fault not_at_least_zero(const char* key, double value) {
-  if (value >= 0 && std::isfinite(value)) return {};
-  return SceneFault{key, fmt::format("found {}; allowed: a number of at least 0", value)};
-}
-
 Fault fault_of_field(const char* key, ShapeQuantity quantity, double value) {
   if (std::isfinite(value) && (quantity == ShapeQuantity::number || value > 0)) return {};
   return SceneFault{"shape", fmt::format("its {} is {}; allowed: a number greater than 0", key, value)};
@@ -65,87 +60,24 @@ Fault fault_of_motion(const Body& body) {
   return {};
 }
 
-Fault fault_of_times(double from, double until) {
-  if (const Fault early = not_at_least_zero("from", from)) return early;
-  if (until > from) return {};
-  return SceneFault{"until", fmt::format("found {}; allowed: a time after from, which is {} s", until, from)};
-}
-
-double distance(int a, const Vec3& point_a, int b, const Vec3& point_b, const Scene& scene) {
-  const BodyPose pose_a = scene.pose(a), pose_b = scene.pose(b);
-  return (pose_b.position + pose_b.orientation * point_b - pose_a.position - pose_a.orientation * point_a).stableNorm();
-}
-
-Fault fault_of_vectors(const Joint& joint) {
-  Fault fault;
-  for_each_vector(joint.type, [&](const char* key, JointVector kind, const Vec3& vector) {
-    if (fault) return;
-    if (kind == JointVector::point && !vector.allFinite()) fault = SceneFault{key, "it is not finite"};
-    if (kind == JointVector::direction && !is_unit(vector.squaredNorm()))
-      fault = SceneFault{key, "it is no unit vector"};
-  });
-  return fault;
-}
-
-// Faults that the vectors of a joint have together.
-struct JointFault {
-  const Joint& joint;
-  const Scene& scene;
-
-  Fault operator()(const DistanceJoint& type) const {
-    const double apart = distance(joint.a, type.point_a, joint.b, type.point_b, scene);
-    if (!(apart > 0)) {
-      return SceneFault{"point_b",
-                        "the two points coincide at t = 0, so their distance has no direction; allowed: points apart"};
-    }
-    if (!std::isfinite(apart)) return SceneFault{"", "the distance between its ends is too large for a number"};
-    return {};
+// Each compound joint has all its axes behind it, and no axis stands alone.
+bool stands_behind_its_compound(const Scene& scene, std::size_t k) {
+  const Joint& joint = scene.joints[k];
+  const auto is_axis = [&](std::size_t at, const Joint& of, const std::vector<SeriesAxis>& axes, std::size_t index) {
+    if (at >= scene.joints.size()) return false;
+    const auto* axis = std::get_if<CompoundAxis>(&scene.joints[at].type);
+    return axis && axis->index == index && axis->axes == axes && scene.joints[at].a == of.a &&
+           scene.joints[at].b == of.b;
+  };
+  if (const auto* whole = std::get_if<CompoundJoint>(&joint.type)) {
+    for (std::size_t i = 0; i < whole->axes.size(); ++i)
+      if (!is_axis(k + 1 + i, joint, whole->axes, i)) return false;
   }
-  Fault operator()(const UniversalJoint& type) const {
-    // Six digits written of each component leave so much of a right angle.
-    constexpr double kRight = 1e-5;
-    const double cosine = type.axis.dot(type.axis2);
-    if (std::abs(cosine) <= kRight) return {};
-    return SceneFault{"axis2", fmt::format("found an angle of {:.6g}° to axis; allowed: a right angle",
-                                           std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / M_PI)};
-  }
-  template <typename Other>
-  Fault operator()(const Other&) const {
-    return {};
-  }
-};
-
-Fault fault_of_table(const TimeTable& table, const char* key) {
-  if (table.times.empty() || table.times.size() != table.values.size())
-    return SceneFault{key, "allowed: at least one time, and a value for each"};
-  for (std::size_t i = 0; i < table.times.size(); ++i) {
-    if (!std::isfinite(table.times[i]) || !std::isfinite(table.values[i])) return SceneFault{key, "it is not finite"};
-    if (i > 0 && !(table.times[i] > table.times[i - 1]))
-      return SceneFault{
-          key, fmt::format("found the time {} after {}; allowed: times that rise", table.times[i], table.times[i - 1])};
-  }
-  return {};
-}
-
-Fault fault_of_servo(const Servo& servo) {
-  for (const auto& [key, value] : {std::pair{"kp", servo.kp}, {"kd", servo.kd}, {"period", servo.period}}) {
-    if (const Fault negative = not_at_least_zero(key, value)) return negative;
-  }
-  if (!std::isfinite(servo.target_speed)) return SceneFault{"target_speed", "it is not finite"};
-  if (!(servo.most > 0))
-    return SceneFault{"most", fmt::format("found {}; allowed: a number greater than 0", servo.most)};
-  return fault_of_table(servo.target, "target");
-}
-
-Fault fault_of_limits(const Joint& joint) {
-  if (!(joint.lower < joint.upper)) {
-    return SceneFault{"upper", fmt::format("found {}, and lower is {}; allowed: limits of which the upper is greater",
-                                           joint.upper, joint.lower)};
-  }
-  if (joint.lower > 0) return SceneFault{"lower", fmt::format("the joint is at 0 at t = 0, {} below it", joint.lower)};
-  if (joint.upper < 0) return SceneFault{"upper", fmt::format("the joint is at 0 at t = 0, {} above it", -joint.upper)};
-  if (joint.restitution >= 0 && joint.restitution <= 1) return {};
-  return SceneFault{"restitution", fmt::format("found {}; allowed: a number from 0 to 1", joint.restitution)};
+  const auto* axis = std::get_if<CompoundAxis>(&joint.type);
+  if (!axis) return true;
+  if (k < axis->index + 1) return false;
+  const auto* whole = std::get_if<CompoundJoint>(&scene.joints[k - axis->index - 1].type);
+  return whole && whole->axes == axis->axes;
 }
 
 template <typename Rows, typename F>
@@ -158,6 +90,17 @@ void check_rows(const Rows& rows, const F& fault_and_name) {
 }
 
 }  // namespace
+
+Fault not_at_least_zero(const char* key, double value) {
+  if (value >= 0 && std::isfinite(value)) return {};
+  return SceneFault{key, fmt::format("found {}; allowed: a number of at least 0", value)};
+}
+
+Fault fault_of_times(double from, double until) {
+  if (const Fault early = not_at_least_zero("from", from)) return early;
+  if (until > from) return {};
+  return SceneFault{"until", fmt::format("found {}; allowed: a time after from, which is {} s", until, from)};
+}
 
 std::string why_no_inertia(const Mat3& inertia) {
   if (!inertia.allFinite()) return "its moments are not finite";
@@ -221,50 +164,6 @@ Fault fault_of(const Spring& spring, const Scene& scene) {
   return SceneFault{"", "its points are not finite"};
 }
 
-Fault fault_of(const Joint& joint, const Scene& scene) {
-  if (Fault ends = fault_of_ends(joint.a, joint.b, "joint", scene)) return ends;
-  if (Fault vector = fault_of_vectors(joint)) return vector;
-  if (Fault type = std::visit(JointFault{joint, scene}, joint.type)) return type;
-  for (const auto& [key, value] : {std::pair{"stiffness", joint.stiffness}, {"damping", joint.damping}}) {
-    if (Fault negative = not_at_least_zero(key, value)) return negative;
-  }
-  if (!std::isfinite(joint.rest)) return SceneFault{"rest", "it is not finite"};
-  return fault_of_limits(joint);
-}
-
-Fault fault_of(const Motor& motor, const Scene& scene) {
-  if (motor.joint < 0 || motor.joint >= static_cast<int>(scene.joints.size()))
-    return SceneFault{"joint", fmt::format("there is no joint number {}", motor.joint)};
-  if (!free_axis(scene.joints[motor.joint]))
-    return SceneFault{
-        "joint", fmt::format("is a {} joint, which has no coordinate of its own to drive; allowed: a hinge or a slider",
-                             joint_type_name(scene.joints[motor.joint]))};
-  if (!std::isfinite(motor.effort) || !std::isfinite(motor.speed.value_or(0)))
-    return SceneFault{"", "what it drives by is not finite"};
-  if (motor.speed && !(motor.most > 0))
-    return SceneFault{"most", fmt::format("found {}; allowed: a number greater than 0", motor.most)};
-  if (motor.efforts) {
-    if (const Fault table =
-            fault_of_table(motor.efforts.value(), turns(scene.joints[motor.joint]) ? "torque" : "force"))
-      return table;
-  }
-  if (motor.servo) {
-    if (const Fault servo = fault_of_servo(motor.servo.value())) return servo;
-  }
-  for (const Motor& other : scene.motors) {
-    const bool overlap =
-        &other != &motor && other.joint == motor.joint && other.from < motor.until && motor.from < other.until;
-    if (overlap && other.speed && motor.speed)
-      return SceneFault{"speed",
-                        other.is_friction || motor.is_friction
-                            ? "the joint has friction, and that acts like a motor of speed 0; allowed: one of the two"
-                            : "another motor prescribes the speed of the same joint at the same time"};
-    if (overlap && other.servo && motor.servo)
-      return SceneFault{"kp", "another servo drives the same joint at the same time; allowed: one at a time"};
-  }
-  return fault_of_times(motor.from, motor.until);
-}
-
 Fault fault_of(const ContactLaw& law) {
   if (!(law.restitution >= 0 && law.restitution <= 1))
     return SceneFault{"restitution", fmt::format("found {}; allowed: a number from 0 to 1", law.restitution)};
@@ -305,7 +204,14 @@ void validate(const Scene& scene) {
     Fault fault = fault_of(joint, scene);
     if (!fault && !joint.name.empty() && !joints.insert(joint.name).second)
       fault = SceneFault{"name", "another joint has it, too"};
+    if (!fault && !stands_behind_its_compound(scene, i))
+      fault = SceneFault{"", "an axis of a compound joint stands behind that joint, in the order of its axes"};
     return std::pair(fault, fmt::format("joint {}", i + 1));
+  });
+  check_rows(scene.couplings, [&](const Coupling& coupling, std::size_t i) {
+    Fault fault = fault_of(coupling, scene);
+    if (!fault) fault = fault_of_circle(scene.couplings, i, scene);
+    return std::pair(fault, fmt::format("coupling {}", i + 1));
   });
   check_rows(scene.motors, [&](const Motor& motor, std::size_t i) {
     return std::pair(fault_of(motor, scene), fmt::format("motor {}", i + 1));

@@ -22,8 +22,13 @@ std::optional<SceneFault> fault_of_name(const std::string& body);
 std::optional<SceneFault> fault_of_ends(int a, int b, const char* what, const Scene& scene);
 std::optional<SceneFault> fault_of(const Spring& spring, const Scene& scene);
 std::optional<SceneFault> fault_of(const Joint& joint, const Scene& scene);  // initial velocities that break it aside
+std::optional<SceneFault> fault_of(const Coupling& coupling, const Scene& scene);
+// Of couplings[last], if it closes a circle with those before.
+std::optional<SceneFault> fault_of_circle(const std::vector<Coupling>& couplings, std::size_t last, const Scene& scene);
 std::optional<SceneFault> fault_of(const Motor& motor, const Scene& scene);
 std::optional<SceneFault> fault_of(const ContactLaw& law);
+std::optional<SceneFault> fault_of_times(double from, double until);
+std::optional<SceneFault> not_at_least_zero(const char* key, double value);
 std::optional<SceneFault> fault_of(const ContactPair& pair, const Scene& scene);
 std::optional<SceneFault> fault_of(const TimedForce& force, const Scene& scene);
 

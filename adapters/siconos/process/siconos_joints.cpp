@@ -37,6 +37,10 @@ struct Relation {
   std::shared_ptr<NewtonEulerJointR> operator()(const CylindricalJoint&) const { return lacking(); }
   std::shared_ptr<NewtonEulerJointR> operator()(const DistanceJoint&) const { return lacking(); }
   std::shared_ptr<NewtonEulerJointR> operator()(const UniversalJoint&) const { return lacking(); }
+  std::shared_ptr<NewtonEulerJointR> operator()(const CompoundAxis&) const { return lacking(); }
+  std::shared_ptr<NewtonEulerJointR> operator()(const CompoundJoint&) const { return lacking(); }
+  std::shared_ptr<NewtonEulerJointR> operator()(const PlanarJoint&) const { return lacking(); }
+  std::shared_ptr<NewtonEulerJointR> operator()(const ScrewJoint&) const { return lacking(); }
   static std::shared_ptr<NewtonEulerJointR> lacking() {
     throw std::logic_error("a joint that is not among the features");
   }

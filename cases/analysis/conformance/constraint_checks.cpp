@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "cases/analysis/conformance/trial.h"
 
@@ -39,6 +40,17 @@ std::vector<Joined> joined_rods() {
     is.vector("the axis along", rod.orientation * y, y, kSlack);
     is.number("along the axis at", anchor.y(), 0.5 * 0.5 * 0.25, kSlack);
   };
+  const auto stays_in_the_plane = [=](Comparison& is, const BodyState& rod) {
+    is.number("the anchor, along the normal, at", anchor_of(rod).y(), 0, kSlack);
+    is.vector("the normal along", rod.orientation * y, y, kSlack);
+  };
+  const auto follows_the_thread = [=](Comparison& is, const BodyState& rod) {
+    const Vec3 anchor = anchor_of(rod);
+    is.vector("the anchor, across the axis, at", Vec3(anchor.x(), 0, anchor.z()), Vec3::Zero(), kSlack);
+    const double turned = 2 * std::atan2(rod.orientation.y(), rod.orientation.w());
+    is.number("along the axis, less whole turns, at",
+              std::remainder(anchor.y() - 0.5 * turned / (2 * std::numbers::pi), 0.5), 0, kSlack);
+  };
   const auto slides = [](Comparison& is, const BodyState& rod) {
     is.vector("across the axis at", Vec3(rod.position.x(), rod.position.y(), 0), {0.5, 0, 0}, kSlack);
     is.orientation(rod.orientation, Quat::Identity(), kSlack);
@@ -57,6 +69,8 @@ std::vector<Joined> joined_rods() {
           {"slider", SliderJoint{z}, slides},
           {"fixed", FixedJoint{}, stays},
           {"distance", DistanceJoint{origin, origin}, keeps_distance},
+          {"planar", PlanarJoint{origin, y}, stays_in_the_plane},
+          {"screw", ScrewJoint{origin, y, 0.5}, follows_the_thread},
           {"universal", UniversalJoint{origin, y, z}, keeps_anchor}};
 }
 
@@ -84,6 +98,49 @@ CheckResult joints_hold(const Trial& trial) {
     asked += result.answer == CheckResult::Answer::holds;
   }
   return asked > 0 ? holds() : not_asked("it declares no joint");
+}
+
+// A rod that falls from the horizontal about a hinge at its end, which is the second body's, too, if there is one.
+Scene falling_rod() {
+  Body rod;
+  rod.name = "rod", rod.position = {0.5, 0, 0}, rod.inertia = Vec3(0.01, 0.09, 0.09).asDiagonal();
+  Scene scene = scene_of(rod, {0, 0, -9.81});
+  scene.joints = {{.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitY()}, .name = "pivot"}};
+  return scene;
+}
+
+// x'' = 9.81 / 2 / (0.25 + 0.09 + 1) cos x; without the rotor the rod would fall four times as fast.
+CheckResult a_rotor_is_carried(const Trial& trial) {
+  Scene scene = falling_rod();
+  scene.joints[0].armature = 1;
+  if (const std::string why = why_not(trial, scene, kStep); !why.empty()) return not_asked(why);
+  TriedWorld world(trial, scene);
+  const BodyState came = world.step(kStep, 60).state().columns().body(0);
+  Comparison is(world.sent() + "; read");
+  constexpr double kAngle = 0.11434;  // rad after a quarter of a second
+  is.vector("position", came.position, {0.5 * std::cos(kAngle), 0, -0.5 * std::sin(kAngle)}, kSlack);
+  return is.result();
+}
+
+// The second rod turns by -0.5 of the first one's angle.
+CheckResult a_coupling_holds(const Trial& trial) {
+  Scene scene = falling_rod();
+  Body other = scene.bodies[0];
+  other.name = "other", other.position = {0.5, 2, 0};
+  scene.bodies.push_back(other);
+  scene.joints.push_back({.a = kWorld, .b = 1, .type = HingeJoint{{0, 2, 0}, Vec3::UnitY()}, .name = "geared"});
+  scene.couplings = {{.joint = 1, .to = 0, .ratio = -0.5}};
+  if (const std::string why = why_not(trial, scene, kStep); !why.empty()) return not_asked(why);
+  TriedWorld world(trial, scene);
+  const BodyTable came = world.step(kStep, 96).state();
+  const auto angle = [&](std::size_t i) {
+    const Quat q = came.columns().orientation(i);
+    return 2 * std::atan2(q.y(), q.w());
+  };
+  Comparison is(world.sent() + "; read");
+  is.number("the coupled angle less -0.5 of the other", angle(1) + 0.5 * angle(0), 0, kSlack);
+  if (std::abs(angle(0)) < 0.1) return broken(world.sent() + "; read", "rods that stand still", "rods that fall");
+  return is.result();
 }
 
 struct Resting {
@@ -142,6 +199,8 @@ CheckResult bodies_rest_on_each_other(const Trial& trial) {
 
 std::vector<ConformanceCheck> constraint_checks() {
   return {{"joints", "each joint that is declared holds what it joins, and lets the rest move", joints_hold},
+          {"armature", "a rotor on a joint's axis is moved, too", a_rotor_is_carried},
+          {"coupling", "coupled joints turn in their ratio", a_coupling_holds},
           {"contacts", "each pair of shapes that is declared rests at the right height", bodies_rest_on_each_other}};
 }
 

@@ -153,6 +153,12 @@ DenseMatrix held_directions(const std::vector<RateRow>& held, const DenseMatrix&
 }  // namespace
 
 std::optional<SmallMotions> SmallMotions::of(const Scene& scene) {
+  const bool is_known =
+      scene.couplings.empty() && std::none_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
+        return joint.armature > 0 || std::holds_alternative<CompoundJoint>(joint.type) ||
+               std::holds_alternative<PlanarJoint>(joint.type) || std::holds_alternative<ScrewJoint>(joint.type);
+      });
+  if (!is_known) return {};
   constexpr std::size_t kMostElements = 300, kMostBodies = 150;  // dense algebra takes a tenth of a second
   const VelocityRows rows(scene);
   ElementRows found = elements_of(scene, rows);

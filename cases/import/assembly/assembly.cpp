@@ -201,15 +201,12 @@ class Assembler {
     });
     if (const auto fault = fault_of(joint, scene_))
       throw InputError(fmt::format("{}: {}{}{}", row.where, fault->key, fault->key.empty() ? "" : ": ", fault->what));
-#ifdef RIGOR_HAS_COMPOUND
     joint.armature = row.armature;
-#endif
     place_[k] = static_cast<int>(scene_.joints.size());
     scene_.joints.push_back(joint);
     add_friction(k);
   }
 
-#ifdef RIGOR_HAS_COMPOUND
   void add_couplings() {
     for (const LinkCoupling& row : model_.couplings) {
       if (place_[row.joint] < 0 || place_[row.to] < 0) {
@@ -219,17 +216,13 @@ class Assembler {
       Coupling coupling;  // both count from the start, where take_to_start() has closed it
       coupling.joint = place_[row.joint], coupling.to = place_[row.to], coupling.ratio = row.ratio;
       scene_.couplings.push_back(coupling);
+      const auto fault = fault_of(coupling, scene_);
+      const auto circle = fault_of_circle(scene_.couplings, scene_.couplings.size() - 1, scene_);
+      if (!fault && !circle) continue;
+      scene_.couplings.pop_back();
+      model_.left_out.add(row.where, "a coupling", lost(fault ? fault->what : circle->what));
     }
   }
-#else
-  void add_couplings() {
-    for (const LinkJoint& row : model_.joints) {
-      if (row.armature != 0) model_.left_out.add(row.where, "armature", lost("is the inertia of a rotor"));
-    }
-    for (const LinkCoupling& row : model_.couplings)
-      model_.left_out.add(row.where, "a coupling of two joints", lost("each joint moves by itself"));
-  }
-#endif
 
   void add_friction(int k) {
     if (model_.joints[k].friction == 0) return;

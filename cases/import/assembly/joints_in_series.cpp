@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/joints/axis_series.h"
+
 namespace rigor {
 namespace {
 
@@ -21,7 +23,6 @@ bool is_universal(const std::vector<const LinkJoint*>& chain) {
          (first->anchor - second->anchor).norm() <= kSame && std::abs(first->axis.dot(second->axis)) <= kRight;
 }
 
-#ifdef RIGOR_HAS_COMPOUND
 // The joint itself, and behind it one row for each axis.
 void add_compound(const std::vector<const LinkJoint*>& chain, Joint whole, JointSeries& series) {
   std::vector<SeriesAxis> axes;
@@ -29,6 +30,7 @@ void add_compound(const std::vector<const LinkJoint*>& chain, Joint whole, Joint
     const Vec3* anchor = anchor_of(row->joint);
     axes.push_back({turns(row->joint), anchor ? *anchor : Vec3::Zero().eval(), *free_axis(row->joint)});
   }
+  if (!why_no_series(axes).empty()) return;
   whole.type = CompoundJoint{axes};
   whole.name.clear();
   series.rows.push_back(whole);
@@ -39,7 +41,6 @@ void add_compound(const std::vector<const LinkJoint*>& chain, Joint whole, Joint
     series.rows.push_back(part);
   }
 }
-#endif
 
 }  // namespace
 
@@ -54,9 +55,7 @@ JointSeries joints_in_series(const std::vector<const LinkJoint*>& chain, int a, 
     series.rows.push_back(whole);
     return series;
   }
-#ifdef RIGOR_HAS_COMPOUND
-  if (chain.size() <= kMostSeriesAxes) add_compound(chain, whole, series);
-#endif
+  add_compound(chain, whole, series);
   return series;
 }
 

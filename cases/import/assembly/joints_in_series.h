@@ -5,10 +5,6 @@
 
 #include "core/scene/link_model.h"
 
-#if __has_include("core/scene/joints/compound_joint.h")
-#define RIGOR_HAS_COMPOUND  // and armatures and couplings
-#endif
-
 namespace rigor {
 
 struct JointSeries {

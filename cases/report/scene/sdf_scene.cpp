@@ -134,17 +134,23 @@ class SdfWriter {
 
   void add_joint(std::size_t index) {
     const Joint& joint = scene_.joints[index];
+    if (is_axis_of_compound(joint)) return;  // its compound joint is named
     const char* type = std::visit(
         ForJoints{[](const BallJoint&) { return "ball"; }, [](const CylindricalJoint&) { return ""; },
                   [](const DistanceJoint&) { return ""; }, [](const FixedJoint&) { return "fixed"; },
                   [](const HingeJoint&) { return "revolute"; }, [](const SliderJoint&) { return "prismatic"; },
-                  [](const UniversalJoint&) { return "universal"; }},
+                  [](const UniversalJoint&) { return "universal"; }, [](const CompoundAxis&) { return ""; },
+                  [](const CompoundJoint&) { return ""; }, [](const PlanarJoint&) { return ""; },
+                  [](const ScrewJoint&) { return ""; }},
         joint.type);
     if (!*type)
       return leave_out(scene_.joint_name(index), "the joint",
-                       std::holds_alternative<DistanceJoint>(joint.type)
-                           ? "SDF has no joint of a distance"
+                       std::holds_alternative<DistanceJoint>(joint.type) ? "SDF has no joint of a distance"
+                       : std::holds_alternative<ScrewJoint>(joint.type)
+                           ? "versions of SDF mean different things by the pitch of a screw"
                            : fmt::format("SDF has no {} joint", joint_type_name(joint)));
+    if (joint.armature > 0)
+      leave_out(scene_.joint_name(index), "its armature", "SDF has no inertia of a rotor on an axis");
     // The world hangs on nothing: a joint from a body to it is one from it to the body, the other way round.
     const bool is_swapped = end_of(joint.b) == "world";
     const double sign = is_swapped ? -1 : 1;
@@ -185,6 +191,8 @@ class SdfWriter {
     for (const Spring& spring : scene_.springs)
       leave_out(fmt::format("a spring between '{}' and '{}'", scene_.body_name(spring.a), scene_.body_name(spring.b)),
                 "it", "SDF has no springs between points");
+    for (std::size_t k = 0; k < scene_.couplings.size(); ++k)
+      leave_out(scene_.coupling_name(k), "it", "is not written: the joints move by themselves");
     for (const Motor& motor : scene_.motors)
       leave_out(fmt::format("{} {}", motor.is_friction ? "friction in" : "a motor on",
                             scene_.joint_name(static_cast<std::size_t>(motor.joint))),

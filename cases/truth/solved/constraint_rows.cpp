@@ -44,14 +44,17 @@ bool ConstraintRows<Real, N>::factorise(const std::vector<Row>& rows, const std:
 
 template <typename Real, int N>
 bool ConstraintRows<Real, N>::select(const std::vector<Row>& rows, const std::vector<InverseMass>& inverse_mass) {
-  Eigen::MatrixXd weighed = Eigen::MatrixXd::Zero(N * inverse_mass.size(), rows.size());
+  const bool any_yields = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.compliance > 0; });
+  const std::size_t of_bodies = N * inverse_mass.size();
+  Eigen::MatrixXd weighed = Eigen::MatrixXd::Zero(of_bodies + (any_yields ? rows.size() : 0), rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < Row::kEnds; ++k) {
       const int b = rows[r].body[k];
       if (b < 0) continue;
       const Eigen::Matrix<double, N, N> root = inverse_mass[b].template cast<double>().llt().matrixL();
       weighed.col(r).segment(N * b, N) = root.transpose() * rows[r].block[k].template cast<double>();
     }
+    if (any_yields) weighed(of_bodies + r, r) = std::sqrt(static_cast<double>(rows[r].compliance));
     if (const double length = weighed.col(r).norm(); length > 0) weighed.col(r) /= length;
   }
   const auto [rank, order] = independent_columns(weighed);
@@ -82,7 +85,7 @@ template <typename Real, int N>
 void ConstraintRows<Real, N>::place_terms(const std::vector<Row>& rows, std::size_t bodies) {
   std::vector<std::vector<std::pair<int, int>>> at(bodies);  // pivot and end
   for (int i = 0; i < choice_.rank; ++i) {
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < Row::kEnds; ++k) {
       if (const int b = rows[pivots_[i]].body[k]; b >= 0) at[b].emplace_back(i, k);
     }
   }
@@ -113,7 +116,7 @@ bool ConstraintRows<Real, N>::decompose(const std::vector<Row>& rows, const std:
   weighed_.resize(choice_.rank);
   for (int i = 0; i < choice_.rank; ++i) {
     const Row& row = rows[pivots_[i]];
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < Row::kEnds; ++k) {
       if (row.body[k] >= 0) weighed_[i][k].noalias() = inverse_mass[row.body[k]] * row.block[k];
     }
   }
@@ -121,6 +124,8 @@ bool ConstraintRows<Real, N>::decompose(const std::vector<Row>& rows, const std:
   for (const Term& term : terms_) {
     matrix_.valuePtr()[term.place] += rows[pivots_[term.i]].block[term.end_i].dot(weighed_[term.j][term.end_j]);
   }
+  for (int i = 0; i < choice_.rank; ++i)
+    if (rows[pivots_[i]].compliance > 0) matrix_.coeffRef(i, i) += rows[pivots_[i]].compliance;
   ldlt_.factorize(matrix_);
   constexpr double kSingular = 1e-15;  // of a long double's 1e-19: no digit that counts would be left of a double's
   return ldlt_.info() == Eigen::Success && condition() > kSingular;
@@ -135,7 +140,7 @@ auto ConstraintRows<Real, N>::pushes(const std::vector<Row>& rows, const std::ve
   for (int i = 0; i < choice_.rank; ++i) {
     const Row& row = rows[pivots_[i]];
     multipliers_[pivots_[i]] = right[i];
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < Row::kEnds; ++k) {
       if (row.body[k] >= 0) pushes[row.body[k]] += right[i] * row.block[k];
     }
   }

@@ -36,20 +36,24 @@ bool project_by(const Correct& correct) {
 template <typename Real, int N>
 struct ReferenceRow {
   using Block = Eigen::Matrix<Real, N, 1>;
-  int body[2] = {-1, -1};                           // moving bodies, or -1
-  Block block[2] = {Block::Zero(), Block::Zero()};  // d(rate)/d(velocities of that body)
-  Real bias = 0;                                    // the second derivative is sum of block * acceleration, and this
-  Real gap = 0;                                     // the value that must be zero
-  Real speed = 0;                                   // the required rate
+  static constexpr int kEnds = 4;      // a joint uses two of them
+  int body[kEnds] = {-1, -1, -1, -1};  // moving bodies, or -1
+  // d(rate)/d(velocities of that body)
+  Block block[kEnds] = {Block::Zero(), Block::Zero(), Block::Zero(), Block::Zero()};
+  Real bias = 0;        // the second derivative is sum of block * acceleration, and this
+  Real gap = 0;         // the value that must be zero
+  Real speed = 0;       // the required rate
+  Real compliance = 0;  // of a row that forces alone obey: by how much the second derivative falls with the multiplier
 
   Real rate(const std::vector<Block>& velocities) const {
     Real sum = 0;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < kEnds; ++k) {
       if (body[k] >= 0) sum += block[k].dot(velocities[body[k]]);
     }
     return sum;
   }
   Real residual(Residual what, const std::vector<Block>& velocities) const {
+    if (compliance > 0) return 0;
     return what == Residual::gap ? gap : Real(rate(velocities) - speed);
   }
 };
@@ -121,7 +125,7 @@ class ConstraintRows {
   std::vector<int> pivots_;  // the rows in use
   std::vector<Term> terms_;
   Matrix matrix_;  // upper triangle, by pivots: as ldlt_ takes it without a copy
-  std::vector<std::array<Block, 2>> weighed_;
+  std::vector<std::array<Block, Row::kEnds>> weighed_;
   Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt_;
   mutable Multipliers multipliers_;  // of the last correction
 };

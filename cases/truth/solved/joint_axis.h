@@ -27,10 +27,12 @@ struct JointAxis {
   Matrix turn_start;   // R_a^T R_b at t = 0
   Real way_start = 0;  // m
 
-  JointAxis(const Scene& scene, std::size_t index) : joint(index) {
+  JointAxis(const Scene& scene, std::size_t index)
+      : JointAxis(scene, index, *free_axis(scene.joints[index]), turns(scene.joints[index])) {}
+
+  // Of the turn about an axis, or the way along it, that the joint allows.
+  JointAxis(const Scene& scene, std::size_t index, const Vec3& axis, bool turns) : joint(index), is_hinge(turns) {
     const Joint& row = scene.joints[index];
-    is_hinge = turns(row);
-    const Vec3& axis = *free_axis(row);
     const auto rotation = [&](int body) {
       if (body == kWorld) return Matrix(Matrix::Identity());
       return Matrix(scene.bodies[body].orientation.template cast<Real>().normalized().toRotationMatrix());
@@ -71,7 +73,7 @@ struct ActingLoads {
   }
 };
 
-// The axes of joints with a spring, damper, motor or limit.
+// The axes of joints with a spring, damper, motor, armature, coupling or limit.
 template <typename Real>
 std::vector<JointAxis<Real>> axes_in_use(const Scene& scene) {
   std::vector<JointAxis<Real>> axes;
@@ -79,7 +81,12 @@ std::vector<JointAxis<Real>> axes_in_use(const Scene& scene) {
     const Joint& joint = scene.joints[k];
     const bool is_driven = std::any_of(scene.motors.begin(), scene.motors.end(),
                                        [k](const Motor& motor) { return static_cast<std::size_t>(motor.joint) == k; });
-    if (joint.stiffness != 0 || joint.damping != 0 || joint.has_limits() || is_driven) axes.emplace_back(scene, k);
+    const bool is_coupled = std::any_of(scene.couplings.begin(), scene.couplings.end(), [k](const Coupling& coupling) {
+      return static_cast<std::size_t>(coupling.joint) == k || static_cast<std::size_t>(coupling.to) == k;
+    });
+    if (joint.stiffness != 0 || joint.damping != 0 || joint.armature != 0 || joint.has_limits() || is_driven ||
+        is_coupled)
+      axes.emplace_back(scene, k);
   }
   return axes;
 }

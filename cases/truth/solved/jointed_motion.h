@@ -12,6 +12,7 @@
 #include "cases/truth/solved/axis_rows.h"
 #include "cases/truth/solved/equations_of_motion.h"
 #include "cases/truth/solved/newton_euler_joints.h"
+#include "cases/truth/solved/transmissions.h"
 
 namespace rigor {
 
@@ -29,10 +30,12 @@ class JointedMotion {
   explicit JointedMotion(const Scene& scene) : free_(scene, Formulation::body_rates) {
     order_.assign(scene.bodies.size(), -1);
     for (std::size_t k = 0; k < free_.moving().size(); ++k) order_[free_.moving()[k]] = static_cast<int>(k);
-    const std::vector<Pose> start = poses_of(free_.start());
+    const State state = free_.start();
+    const std::vector<Pose> start = poses_of(state);
     joints_.emplace(order_);
     for (const Joint& joint : scene.joints) joints_->add(joint, start);
-    choice_ = choose_rows<Rows>(rows_at(start), inverse_masses(start));
+    transmissions_.emplace(scene, axes());
+    choice_ = choose_rows<Rows>(rows_at(state, start), inverse_masses(start));
   }
 
   State start() const {
@@ -50,7 +53,7 @@ class JointedMotion {
   // The rows in these modes, at a state.
   RowChoice choice_at(const State& state, const AxisModes& modes) const {
     const std::vector<Pose> poses = poses_of(state);
-    std::vector<Row> rows = rows_at(poses);
+    std::vector<Row> rows = rows_at(state, poses);
     const std::size_t of_joints = rows.size();
     add_mode_rows(modes, state, poses, rows);
     return rows.size() == of_joints ? choice_ : choose_rows<Rows>(rows, inverse_masses(poses));
@@ -74,9 +77,14 @@ class JointedMotion {
     return poses;
   }
 
-  std::vector<Row> rows_at(const std::vector<Pose>& poses) const {
+  std::vector<Row> rows_at(const State& state, const std::vector<Pose>& poses) const {
     std::vector<Row> rows;
     joints_->add_rows(poses, rows);
+    transmissions_->add_rows(
+        [&](const JointAxis<Real>& axis, Real turned) {
+          return joints_->axis_row(axis, scene().joints[axis.joint], poses, turned);
+        },
+        [&](std::size_t k) { return axis_row(k, state, poses); }, rows);
     return rows;
   }
 
@@ -121,6 +129,7 @@ class JointedMotion {
   Free free_;
   std::vector<int> order_;  // of each body: its place among those that move; -1 if fixed
   std::optional<NewtonEulerJoints<Real>> joints_;
+  std::optional<Transmissions<Real>> transmissions_;
   RowChoice choice_;  // where the motion begins
 };
 
@@ -179,7 +188,7 @@ class JointedMotion<Real>::Interval {
 
  private:
   std::vector<Row> rows_at(const State& state, const std::vector<Pose>& poses) const {
-    std::vector<Row> rows = motion_->rows_at(poses);
+    std::vector<Row> rows = motion_->rows_at(state, poses);
     motion_->add_mode_rows(modes_, state, poses, rows);
     return rows;
   }

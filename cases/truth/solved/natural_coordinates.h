@@ -17,6 +17,7 @@
 #include "cases/truth/solved/axis_rows.h"
 #include "cases/truth/solved/joint_axis.h"
 #include "cases/truth/solved/natural_joints.h"
+#include "cases/truth/solved/transmissions.h"
 #include "core/base/eigen_of.h"
 #include "core/engine/body_table.h"
 
@@ -43,10 +44,12 @@ class NaturalCoordinates {
       if (!body.fixed) masses_.push_back(constant_inverse_mass(body, second_moment_.back()));
       if (!body.fixed && !is_regular(second_moment_.back())) singular_.push_back(static_cast<int>(order_.size()) - 1);
     }
-    const std::vector<Frame> start = frames_of(start_as_read());
+    const State state = start_as_read();
+    const std::vector<Frame> start = frames_of(state);
     joints_.emplace(order_);
     for (const Joint& joint : scene.joints) joints_->add(joint, start);
-    choice_ = choose_rows<Rows>(rows_at(start), inverse_masses(start));
+    transmissions_.emplace(scene, axes_);
+    choice_ = choose_rows<Rows>(rows_at(state, start), inverse_masses(start));
   }
 
   State start() const {
@@ -63,7 +66,7 @@ class NaturalCoordinates {
   }
   RowChoice choice_at(const State& state, const AxisModes& modes) const {
     const std::vector<Frame> frames = frames_of(state);
-    std::vector<Row> rows = rows_at(frames);
+    std::vector<Row> rows = rows_at(state, frames);
     const std::size_t of_joints = rows.size();
     add_mode_rows(modes, state, frames, rows);
     return rows.size() == of_joints ? choice_ : choose_rows<Rows>(rows, inverse_masses(frames));
@@ -121,10 +124,15 @@ class NaturalCoordinates {
     return frames;
   }
 
-  std::vector<Row> rows_at(const std::vector<Frame>& frames) const {
+  std::vector<Row> rows_at(const State& state, const std::vector<Frame>& frames) const {
     std::vector<Row> rows;
     for (const int i : moving_) add_own_rows(order_[i], frames[i], rows);
     joints_->add_rows(frames, rows);
+    transmissions_->add_rows(
+        [&](const JointAxis<Real>& axis, Real turned) {
+          return joints_->axis_row(axis, scene_.joints[axis.joint], frames, turned);
+        },
+        [&](std::size_t k) { return axis_row(k, state, frames); }, rows);
     return rows;
   }
 
@@ -254,6 +262,7 @@ class NaturalCoordinates {
   std::vector<InverseMass> masses_;    // of the moving bodies, if they are constant
   std::vector<int> singular_;          // bodies of which they are not
   std::optional<NaturalJoints<Real>> joints_;
+  std::optional<Transmissions<Real>> transmissions_;
   RowChoice choice_;
 };
 
@@ -314,7 +323,7 @@ class NaturalCoordinates<Real>::Interval {
   }
 
   std::vector<Row> rows_at(const State& state, const std::vector<Frame>& frames) const {
-    std::vector<Row> rows = motion_->rows_at(frames);
+    std::vector<Row> rows = motion_->rows_at(state, frames);
     motion_->add_mode_rows(modes_, state, frames, rows);
     return rows;
   }

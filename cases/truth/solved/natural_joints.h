@@ -99,12 +99,25 @@ class NaturalJoints {
         offsets_.push_back(
             {joint.a, joint.b, a.R.transpose() * u, b.R.transpose() * (point - b.x), u.dot(point - a.x)});
     }
+    if constexpr ((locks & Lock::shifts) == Lock::shift_z) {
+      const Vector point = anchor->template cast<Real>();
+      offsets_.push_back(
+          {joint.a, joint.b, a.R.transpose() * along, b.R.transpose() * (point - b.x), along.dot(point - a.x)});
+    }
     if constexpr ((locks & Lock::turns) == Lock::turns) {  // d_i of a against d_j of b, as at the start
       for (int k = 0; k < 3; ++k) keep_dot(joint, Vector::Unit((k + 1) % 3), b.R.transpose() * a.R.col(k), a, b);
     } else if constexpr ((locks & Lock::turns) == Lock::tilt) {
       for (const Vector& u : beside(along)) keep_dot(joint, a.R.transpose() * along, b.R.transpose() * u, a, b);
     }
   }
+
+  // Its thread is a row of transmissions.h.
+  void add(const Joint& joint, const ScrewJoint& type, const Frame& a, const Frame& b) {
+    add(joint, CylindricalJoint{type.anchor, type.axis}, a, b);
+  }
+  // The truth refuses them.
+  void add(const Joint&, const CompoundJoint&, const Frame&, const Frame&) {}
+  void add(const Joint&, const CompoundAxis&, const Frame&, const Frame&) {}
 
   void add(const Joint& joint, const UniversalJoint& type, const Frame& a, const Frame& b) {
     share(joint, type.anchor.template cast<Real>(), a, b);

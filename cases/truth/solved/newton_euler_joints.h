@@ -93,12 +93,22 @@ class NewtonEulerJoints {
     else if constexpr ((locks & Lock::shifts) == Lock::across)
       for (const Vector& u : across(along))
         offsets_.push_back({joint.a, joint.b, a.R.transpose() * u, in(b, point), u.dot(point - a.position)});
+    else if constexpr ((locks & Lock::shifts) == Lock::shift_z)
+      offsets_.push_back({joint.a, joint.b, a.R.transpose() * along, in(b, point), along.dot(point - a.position)});
     if constexpr ((locks & Lock::turns) ==
                   Lock::turns)  // each of three axes of one at right angles to one of the other
       for (int k = 0; k < 3; ++k) keep_angle(joint, Vector::Unit(k), Vector::Unit((k + 1) % 3), a, b);
     else if constexpr ((locks & Lock::turns) == Lock::tilt)
       for (const Vector& u : across(along)) keep_angle(joint, u, along, a, b);
   }
+
+  // Its thread is a row of transmissions.h.
+  void add(const Joint& joint, const ScrewJoint& type, const Pose& a, const Pose& b) {
+    add(joint, CylindricalJoint{type.anchor, type.axis}, a, b);
+  }
+  // The truth refuses them.
+  void add(const Joint&, const CompoundJoint&, const Pose&, const Pose&) {}
+  void add(const Joint&, const CompoundAxis&, const Pose&, const Pose&) {}
 
   void add(const Joint& joint, const UniversalJoint& type, const Pose& a, const Pose& b) {
     share(joint, type.anchor.template cast<Real>(), a, b);

@@ -45,8 +45,13 @@ std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
       Feature::fixed_body,   Feature::spring,       Feature::timed_force,    Feature::joints_with_dampers,
       Feature::joint_spring, Feature::joint_damper, Feature::joint_limit,    Feature::joint_limit_beyond_half_turn,
       Feature::motor_effort, Feature::motor_speed,  Feature::joint_friction, Feature::motor_servo,
-      Feature::motor_table};
+      Feature::motor_table,  Feature::armature,     Feature::coupling};
   for (const Need& need : needs_of(scene)) {
+    if (need.feature == joint_feature<CompoundJoint>())
+      throw InputError(
+          fmt::format("the truth 'reference' has no compound joint, and this scene has {}; allowed: a "
+                      "truth in closed form, 'events' or 'none'",
+                      need.because));
     if (solved.contains(need.feature) || is_joint(need.feature)) continue;
     throw InputError(fmt::format("the truth 'reference' is for scenes without contacts; this one has {}: {}",
                                  word_of(need.feature), need.because));

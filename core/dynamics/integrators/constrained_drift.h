@@ -17,6 +17,11 @@ class ConstrainedDrift {
 
   bool is_free() const { return parts_.joints == nullptr; }
 
+  // Call it before the first kick of a step, with the velocities before it.
+  void begin(BodyColumns state) {
+    if (!is_free()) parts_.joints->note_rotors(state);
+  }
+
   // Calls move(state, carried) once, or, with joints, repeats it until the joints are closed at the end. v and the
   // momenta L in `carried` are those before the drift over h; w is not read.
   template <typename Move>
@@ -39,7 +44,7 @@ class ConstrainedDrift {
   void settle(MutableBodyColumns state, Columns& carried) {
     if (is_free()) return;
     kernels().velocity_of(parts_.system.constants.all(), state.column(0), carried.data());
-    kick(state, carried, parts_.joints->velocity_impulse(state));
+    kick(state, carried, parts_.joints->velocity_impulse_with_rotors(state));
     kernels().velocity_of(parts_.system.constants.all(), state.column(0), carried.data());
   }
 

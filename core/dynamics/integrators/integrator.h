@@ -66,6 +66,7 @@ struct Integrator {
   Features lacks = {};                    // what else of feature.h it cannot express
   std::vector<OptionInfo> options = {};   // of this method alone
   std::string twin_of = "";               // see MethodInfo
+  Features twin_takes = {};  // of armatures, couplings, compound, planar and screw joints: what its scheme has
   std::unique_ptr<Stepper> (*make)(const StepperParts& parts);
 };
 

@@ -12,6 +12,7 @@ void LeapfrogComposition::step(MutableBodyColumns state, double t, double dt) {
     resolve_ahead(*parts_.contact, parts_.system, wrenches_, dt, state);
   }
   if (parts_.system.loads.empty() && drift_.is_free()) return free_step(state, dt);
+  drift_.begin(state);
   kick_.begin(state);
   parts_.system.loads.for_each_smooth_part(t, dt,
                                            [&](double from, double length) { smooth_part(state, from, length); });

@@ -17,6 +17,7 @@ class MoserVeselov : public Stepper {
 
   void step(MutableBodyColumns state, double t, double dt) override {
     solver_warning_.clear();
+    drift_.begin(state);
     kick_.begin(state);
     kick(state, t, dt);
     if (parts_.contact) resolve_contact(state);

@@ -45,6 +45,7 @@ class SemiImplicitEuler : public Stepper {
  private:
   void constrained_step(MutableBodyColumns state, const double* wrench, double dt) {
     const BodyConstants& bodies = parts_.system.constants;
+    parts_.joints->note_rotors(state, 0.5 * dt);
     bodies.for_each_block([&](const Bodies& block) { passes_.kick(block, state, wrench, dt); });
     if (balls_ && balls_->drift(state, dt, parts_.orientation->turn)) return;
     const auto drift = [&](const double* impulse) -> BodyColumns {
@@ -54,7 +55,7 @@ class SemiImplicitEuler : public Stepper {
       return end_.columns();
     };
     if (!parts_.joints->close(state, dt, drift, kClosed)) {
-      drift(parts_.joints->velocity_impulse(state));
+      drift(parts_.joints->velocity_impulse_with_rotors(state));
       parts_.joints->project(end_.columns());
     }
     copy_columns(end_.columns(), state);

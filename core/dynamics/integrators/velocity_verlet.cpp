@@ -40,6 +40,7 @@ class VelocityVerlet : public Stepper {
  private:
   void constrained_step(MutableBodyColumns state, const double* wrench, double t, double dt) {
     const BodyConstants& bodies = parts_.system.constants;
+    drift_.begin(state);
     bodies.for_each_block([&](const Bodies& block) { first_kick(block, state, wrench, dt); });
     drift_.drift(state, carried_, dt, [&](MutableBodyColumns at, const double* carried) {
       bodies.for_each_block([&](const Bodies& block) { kernels().free_drift(block, at.column(0), carried, dt); });

@@ -31,9 +31,11 @@ bool invert(const double* s, Mat3& inverse) {
 
 bool BallJoints::are_all_of(const Scene& scene) {
   std::set<std::pair<int, int>> held;
-  const bool are_free = std::none_of(scene.motors.begin(), scene.motors.end(), [](const Motor& m) { return !m.gives_effort(); });
+  const bool are_free = scene.couplings.empty() && std::none_of(scene.motors.begin(), scene.motors.end(),
+                                                                [](const Motor& m) { return !m.gives_effort(); });
   return are_free && std::all_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
-           const bool is_hinge = std::holds_alternative<HingeJoint>(joint.type) && !joint.has_limits();
+           const bool is_hinge =
+               std::holds_alternative<HingeJoint>(joint.type) && !joint.has_limits() && joint.armature == 0;
            return (is_hinge || std::holds_alternative<BallJoint>(joint.type)) &&
                   held.insert(std::minmax(joint.a, joint.b)).second;
          });

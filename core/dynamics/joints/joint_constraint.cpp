@@ -11,8 +11,14 @@ EndMotion at_start(const Scene& scene, int body) {
 }
 
 struct Make {
+  const Scene& scene;
   const Joint& joint;
   EndsAtStart ends;
+  std::unique_ptr<JointConstraint> operator()(const CompoundAxis&) const { return make_axis_of_series(); }
+  std::unique_ptr<JointConstraint> operator()(const CompoundJoint& type) const {
+    return make_series(type, scene.pose(joint.a), scene.pose(joint.b));
+  }
+  std::unique_ptr<JointConstraint> operator()(const ScrewJoint& type) const { return make_screw(type, ends); }
   std::unique_ptr<JointConstraint> operator()(const DistanceJoint& type) const { return make_distance(type, ends); }
   std::unique_ptr<JointConstraint> operator()(const UniversalJoint& type) const { return make_universal(type, ends); }
   template <typename Type>
@@ -25,7 +31,7 @@ struct Make {
 }  // namespace
 
 std::unique_ptr<JointConstraint> make_constraint(const Scene& scene, const Joint& joint) {
-  return std::visit(Make{joint, {at_start(scene, joint.a), at_start(scene, joint.b)}}, joint.type);
+  return std::visit(Make{scene, joint, {at_start(scene, joint.a), at_start(scene, joint.b)}}, joint.type);
 }
 
 }  // namespace rigor

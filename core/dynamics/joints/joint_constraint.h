@@ -44,6 +44,9 @@ struct EndsAtStart {
 std::unique_ptr<JointConstraint> make_masked(unsigned mask, const Vec3* anchor, const Vec3* axis,
                                              const EndsAtStart& ends);
 std::unique_ptr<JointConstraint> make_distance(const DistanceJoint& joint, const EndsAtStart& ends);
+std::unique_ptr<JointConstraint> make_screw(const ScrewJoint& joint, const EndsAtStart& ends);
+std::unique_ptr<JointConstraint> make_series(const CompoundJoint& joint, const BodyPose& a, const BodyPose& b);
+std::unique_ptr<JointConstraint> make_axis_of_series();
 std::unique_ptr<JointConstraint> make_universal(const UniversalJoint& joint, const EndsAtStart& ends);
 
 std::unique_ptr<JointConstraint> make_constraint(const Scene& scene, const Joint& joint);

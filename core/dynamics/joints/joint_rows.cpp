@@ -34,49 +34,66 @@ Vec6 wrench_at(const double* columns, std::size_t stride, int body) {
 
 JointRows::JointRows(const Scene& scene, const System& system)
     : system_(system),
-      joints_(scene.joints.size()),
+      joints_(scene.joints.size() + scene.couplings.size()),
       frames_(system.size()),
       on_body_(system.size()),
       elsewhere_(system.size()),
       wrench_(kWrenchColumns, system.size()) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k);
+  for (std::size_t k = 0; k < scene.couplings.size(); ++k)
+    add_coupling(scene, scene.couplings[k], joints_[scene.joints.size() + k]);
   std::sort(moved_.begin(), moved_.end());
   moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
-  list_couplings();
+  list_shared_bodies();
 }
 
 void JointRows::add_joint(const Scene& scene, std::size_t k) {
   const Joint& joint = scene.joints[k];
-  const auto moving = [&](int body) { return body != kWorld && !system_.bodies[body].fixed ? body : kWorld; };
   JointRow& row = joints_[k];
   row.constraint = make_constraint(scene, joint);
   row.rows = row.most_rows = row.constraint->rows();
-  if (joint.has_limits() || has_speed_motor_or_servo(scene, k)) {
+  row.armature = joint.armature;
+  // The axis of a compound joint has no rows of its own, and each joint needs room for one.
+  if (joint.has_limits() || joint.armature > 0 || has_speed_motor_or_servo(scene, k) || row.rows == 0) {
     row.coordinate.emplace(scene, joint);
     ++row.most_rows;
   }
   row.end[0] = joint.a, row.end[1] = joint.b;
-  row.body[0] = moving(joint.a), row.body[1] = moving(joint.b);
-  for (const int body : row.end) {
-    if (body != kWorld) moved_.push_back(body);
+  note_ends(row);
+}
+
+void JointRows::add_coupling(const Scene& scene, const Coupling& coupling, JointRow& row) {
+  row.coupling = std::make_unique<CoupledCoordinates>(scene, coupling);
+  row.rows = row.most_rows = 1;
+  row.ends = row.coupling->count();
+  std::copy(row.coupling->ends().begin(), row.coupling->ends().end(), row.end);
+  note_ends(row);
+}
+
+void JointRows::note_ends(JointRow& row) {
+  for (int end = 0; end < row.ends; ++end) {
+    const int body = row.end[end];
+    if (body == kWorld) continue;
+    row.body[end] = system_.bodies[body].fixed ? kWorld : body;
+    moved_.push_back(body);
   }
 }
 
-void JointRows::list_couplings() {
+void JointRows::list_shared_bodies() {
   std::vector<std::vector<std::pair<int, int>>> on_body(system_.size());  // joints and their ends
   for (std::size_t k = 0; k < joints_.size(); ++k) {
-    for (int end = 0; end < 2; ++end) {
+    for (int end = 0; end < joints_[k].ends; ++end) {
       if (joints_[k].body[end] != kWorld) on_body[joints_[k].body[end]].emplace_back(k, end);
     }
   }
   for (const auto& ends : on_body) {
     for (std::size_t i = 0; i < ends.size(); ++i) {
       for (std::size_t j = i + 1; j < ends.size(); ++j) {
-        couplings_.push_back({ends[i].first,
-                              ends[j].first,
-                              static_cast<std::int8_t>(ends[i].second),
-                              static_cast<std::int8_t>(ends[j].second),
-                              {}});
+        shared_.push_back({ends[i].first,
+                           ends[j].first,
+                           static_cast<std::int8_t>(ends[i].second),
+                           static_cast<std::int8_t>(ends[j].second),
+                           {}});
       }
     }
   }
@@ -86,9 +103,9 @@ BlockCholesky JointRows::make_factor() {
   std::vector<int> rows;
   for (const JointRow& joint : joints_) rows.push_back(joint.most_rows);
   std::vector<std::pair<int, int>> coupled;
-  for (const Coupling& c : couplings_) coupled.emplace_back(c.first, c.second);
+  for (const SharedBody& c : shared_) coupled.emplace_back(c.first, c.second);
   BlockCholesky factor(rows, coupled);
-  for (Coupling& c : couplings_) c.place = factor.place(c.first, c.second);
+  for (SharedBody& c : shared_) c.place = factor.place(c.first, c.second);
   for (std::size_t k = 0; k < joints_.size(); ++k) factor.set_rows_in_use(k, joints_[k].rows_in_use());
   return factor;
 }
@@ -106,6 +123,10 @@ void JointRows::evaluate(BodyColumns state) {
   for (const int body : moved_) evaluate_frame(body, state);
   static const EndMotion kStill;
   for (JointRow& joint : joints_) {
+    if (joint.coupling) {
+      evaluate_coupling(joint, state);
+      continue;
+    }
     const EndMotion& a = joint.end[0] == kWorld ? kStill : frames_[joint.end[0]].motion;
     const EndMotion& b = joint.end[1] == kWorld ? kStill : frames_[joint.end[1]].motion;
     ConstraintRow rows[kMostRows];
@@ -118,11 +139,20 @@ void JointRows::evaluate(BodyColumns state) {
   }
 }
 
+void JointRows::evaluate_coupling(JointRow& joint, BodyColumns state) {
+  const CoupledCoordinates::Row row = joint.coupling->at(state);
+  for (int end = 0; end < joint.ends; ++end) {  // one row
+    const auto at = static_cast<std::size_t>(end);
+    std::copy_n(row.force[at].data(), 3, joint.J[end]), std::copy_n(row.torque[at].data(), 3, joint.J[end] + 3);
+  }
+  joint.gap[0] = row.gap, joint.bias[0] = row.bias;
+}
+
 void JointRows::evaluate_coordinate(JointRow& joint, BodyColumns state) {
   const int k = joint.rows;
   Vec6 on_a = Vec6::Zero(), on_b = Vec6::Zero();
   joint.gap[k] = joint.bias[k] = 0;
-  if (joint.row != CoordinateRow::none) {
+  if (joint.has_coordinate_row()) {
     const JointCoordinate::Value at = joint.coordinate->at(state);
     on_a << -at.force, at.torque_a;
     on_b << at.force, at.torque_b;
@@ -136,7 +166,7 @@ void JointRows::evaluate_coordinate(JointRow& joint, BodyColumns state) {
 double JointRows::longest_arm(bool of_moving_ends) const {
   double longest = 0;
   for (const JointRow& joint : joints_) {
-    for (int end = 0; end < 2; ++end) {
+    for (int end = 0; end < joint.ends; ++end) {
       if (of_moving_ends && joint.body[end] == kWorld) continue;
       const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> J(joint.J[end], joint.most_rows, 6);
       for (int k = 0; k < joint.rows; ++k) {
@@ -152,6 +182,7 @@ double JointRows::longest_arm(bool of_moving_ends) const {
 double JointRows::longest_distance() const {
   double longest = 0;
   for (const JointRow& joint : joints_) {
+    if (joint.coupling) continue;
     const auto at = [&](int end) {
       return joint.end[end] == kWorld ? Vec3(Vec3::Zero()) : frames_[joint.end[end]].motion.position;
     };
@@ -166,7 +197,7 @@ void JointRows::set_lever(double lever) {
     if (joint.coordinate) joint.lever[joint.rows] = joint.coordinate->turns() ? lever : 1;
     for (int k = 0; k < joint.rows; ++k) {
       double force = 0;
-      for (int end = 0; end < 2; ++end)
+      for (int end = 0; end < joint.ends; ++end)
         for (int c = 0; c < 3; ++c) force = std::max(force, std::abs(joint.J[end][k + c * joint.most_rows]));
       joint.lever[k] = force > 0 ? 1 : lever;
     }
@@ -179,7 +210,7 @@ void JointRows::assemble(BlockCholesky& factor) {
     JointRow& joint = joints_[k];
     double* const D = factor.diagonal(k).data();
     with_rows(joint.most_rows, [&](auto R) {
-      for (int end = 0; end < 2; ++end) {
+      for (int end = 0; end < joint.ends; ++end) {
         const int body = joint.body[end];
         if (body == kWorld) continue;
         const double inverse_mass = system_.bodies[body].inverse_mass;
@@ -190,8 +221,9 @@ void JointRows::assemble(BlockCholesky& factor) {
         add_product<R>(D, Y, J, R, 6);
       }
     });
+    if (joint.carries_rotor()) D[joint.rows * (joint.most_rows + 1)] += 1 / joint.armature;
   }
-  for (const Coupling& c : couplings_) {
+  for (const SharedBody& c : shared_) {
     const JointRow &first = joints_[c.first], &second = joints_[c.second];
     double* const to = factor.block(c.place.index).data();
     const bool swapped = c.place.transposed;
@@ -207,10 +239,14 @@ double JointRows::measure_gaps(BodyColumns state) {
     elsewhere_[body].position = state.position(body), elsewhere_[body].R = state.rotation(body);
   static const EndMotion kStill;
   for (JointRow& joint : joints_) {
+    if (joint.coupling) {
+      joint.gap[0] = joint.coupling->at(state).gap;
+      continue;
+    }
     const EndMotion& a = joint.end[0] == kWorld ? kStill : elsewhere_[joint.end[0]];
     const EndMotion& b = joint.end[1] == kWorld ? kStill : elsewhere_[joint.end[1]];
     joint.constraint->find_gaps(a, b, joint.gap.data());
-    if (joint.row == CoordinateRow::none) continue;
+    if (!joint.has_coordinate_row()) continue;
     joint.gap[joint.rows] = joint.coordinate->with_turns(joint.coordinate->at(state).x, joint.target) - joint.target;
   }
   return largest_gap();
@@ -232,7 +268,7 @@ const double* JointRows::wrench_of(const std::vector<Vec6>& multipliers) {
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const JointRow& joint = joints_[k];
     with_rows(joint.most_rows, [&](auto R) {
-      for (int end = 0; end < 2; ++end) {
+      for (int end = 0; end < joint.ends; ++end) {
         if (joint.body[end] != kWorld)
           subtract_transposed_product<R>(on_body_[joint.body[end]].data(), joint.J[end], multipliers[k].data(), 6);
       }
@@ -248,7 +284,7 @@ const double* JointRows::wrench_of(const std::vector<Vec6>& multipliers) {
 Vec6 JointRows::times_velocity(const JointRow& joint) const {
   Vec6 negative = Vec6::Zero();
   with_rows(joint.most_rows, [&](auto R) {
-    for (int end = 0; end < 2; ++end) {
+    for (int end = 0; end < joint.ends; ++end) {
       if (joint.body[end] == kWorld) continue;
       const EndMotion& motion = frames_[joint.body[end]].motion;
       subtract_product<R>(negative.data(), joint.J[end], motion.velocity.data(), 3);
@@ -261,7 +297,7 @@ Vec6 JointRows::times_velocity(const JointRow& joint) const {
 Vec6 JointRows::times_acceleration(const JointRow& joint, const std::vector<Vec6>& by_body) const {
   Vec6 negative = Vec6::Zero();
   with_rows(joint.most_rows, [&](auto R) {
-    for (int end = 0; end < 2; ++end) {
+    for (int end = 0; end < joint.ends; ++end) {
       if (joint.body[end] != kWorld)
         subtract_product<R>(negative.data(), joint.J[end], by_body[joint.body[end]].data(), 6);
     }
@@ -272,7 +308,7 @@ Vec6 JointRows::times_acceleration(const JointRow& joint, const std::vector<Vec6
 Vec6 JointRows::response(const JointRow& joint, const double* wrench) const {
   Vec6 negative = Vec6::Zero();
   with_rows(joint.most_rows, [&](auto R) {
-    for (int end = 0; end < 2; ++end) {
+    for (int end = 0; end < joint.ends; ++end) {
       if (joint.body[end] == kWorld) continue;
       const Vec6 on_body = wrench_at(wrench, stride(), joint.body[end]);
       subtract_product<R>(negative.data(), joint.Y[end], on_body.data(), 6);
@@ -283,7 +319,7 @@ Vec6 JointRows::response(const JointRow& joint, const double* wrench) const {
 
 double JointRows::response_size(const JointRow& joint, const double* wrench) const {
   Vec6 size = Vec6::Zero();
-  for (int end = 0; end < 2; ++end) {
+  for (int end = 0; end < joint.ends; ++end) {
     if (joint.body[end] == kWorld) continue;
     const Vec6 on_body = wrench_at(wrench, stride(), joint.body[end]);
     const Eigen::Map<const Eigen::MatrixXd> Y(joint.Y[end], joint.most_rows, 6);
@@ -295,7 +331,7 @@ double JointRows::response_size(const JointRow& joint, const double* wrench) con
 void JointRows::add_response(const JointRow& joint, const Vec6& multiplier, std::vector<Vec6>& by_body) const {
   const Vec6 negative = -multiplier;
   with_rows(joint.most_rows, [&](auto R) {
-    for (int end = 0; end < 2; ++end) {
+    for (int end = 0; end < joint.ends; ++end) {
       if (joint.body[end] != kWorld)
         subtract_transposed_product<R>(by_body[joint.body[end]].data(), joint.Y[end], negative.data(), 6);
     }

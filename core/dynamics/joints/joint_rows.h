@@ -1,6 +1,8 @@
 // The rows of all joints of a scene at one state, and their products: S = J M⁻¹ Jᵀ, wrenches Jᵀ l, and the effect of a
 // wrench on velocities and poses. A hinge or slider with limits or a motor of given speed has one more row, for its
-// coordinate, while the coordinate is kept at a limit or driven at a speed.
+// coordinate, while the coordinate is kept at a limit or driven at a speed. With an armature I the coordinate carries a
+// rotor of speed u = x'. Its row says J V = u with I u' = -l, so S has 1/I more on the diagonal. While x' is kept or
+// driven the rotor turns evenly and takes no effort. Behind the joints stand the rows of couplings.
 #pragma once
 
 #include <memory>
@@ -10,6 +12,7 @@
 
 #include "core/dynamics/joints/block_cholesky.h"
 #include "core/dynamics/joints/joint_constraint.h"
+#include "core/dynamics/model/coupled_coordinates.h"
 #include "core/dynamics/model/joint_coordinate.h"
 #include "core/dynamics/model/system.h"
 #include "core/engine/columns.h"
@@ -18,25 +21,32 @@ namespace rigor {
 
 // The function of the row of a coordinate x.
 enum class CoordinateRow {
-  none,    // nothing: x is free
+  none,    // nothing, or its rotor: x is free
   kept,    // x = target; an impulse leaves x' = rate
   driven,  // x' = rate
 };
 
-struct JointRow {  // all rows of a joint
-  std::unique_ptr<JointConstraint> constraint;
-  int rows = 0, most_rows = 0;     // of the joint alone; room, with its coordinate's if it can have one
-  int end[2] = {kWorld, kWorld};   // the bodies at its ends
-  int body[2] = {kWorld, kWorld};  // those of them that can move, or kWorld
-  Vec6 lever = Vec6::Ones();       // of each row: converts its gap to m
-  double J[2][6 * kMostRows] = {}, Y[2][6 * kMostRows] = {};  // most_rows x 6, column by column; Y = J M⁻¹
-  Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();               // zero beyond the rows in use
+struct JointRow {  // all rows of a joint, or of a coupling
+  static constexpr int kMostEnds = 4;
+  std::unique_ptr<JointConstraint> constraint;   // of a joint,
+  std::unique_ptr<CoupledCoordinates> coupling;  // or of a coupling
+  int ends = 2;
+  int rows = 0, most_rows = 0;  // of the joint alone; room, with its coordinate's if it can have one
+  int end[kMostEnds] = {kWorld, kWorld, kWorld, kWorld};   // the bodies at its ends
+  int body[kMostEnds] = {kWorld, kWorld, kWorld, kWorld};  // those of them that can move, or kWorld
+  Vec6 lever = Vec6::Ones();                               // of each row: converts its gap to m
+  double J[kMostEnds][6 * kMostRows] = {},
+                          Y[kMostEnds][6 * kMostRows] = {};  // most_rows x 6, column by column; Y = J M⁻¹
+  Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();              // zero beyond the rows in use
 
-  std::optional<JointCoordinate> coordinate = {};  // if it has limits or a motor of given speed
+  std::optional<JointCoordinate> coordinate = {};  // if it has limits, a motor of given speed or an armature
   CoordinateRow row = CoordinateRow::none;
   double target = 0, rate = 0;  // of the coordinate
+  double armature = 0;          // kg m², kg
 
-  int rows_in_use() const { return rows + (row != CoordinateRow::none ? 1 : 0); }
+  bool carries_rotor() const { return armature > 0 && row == CoordinateRow::none; }
+  bool has_coordinate_row() const { return armature > 0 || row != CoordinateRow::none; }
+  int rows_in_use() const { return rows + (has_coordinate_row() ? 1 : 0); }
 };
 
 class JointRows {
@@ -87,7 +97,7 @@ class JointRows {
   void move(const double* wrench, MutableBodyColumns state) const;   // by M⁻¹ times it [m, rad]
 
  private:
-  struct Coupling {  // two joints on a body
+  struct SharedBody {  // two joints on a body
     std::int32_t first, second;
     std::int8_t first_end, second_end;
     EliminationOrder::Place place;
@@ -99,9 +109,12 @@ class JointRows {
   double longest_arm(bool of_moving_ends) const;
   double longest_distance() const;
   void add_joint(const Scene& scene, std::size_t k);
-  void list_couplings();
+  void add_coupling(const Scene& scene, const Coupling& coupling, JointRow& row);
+  void note_ends(JointRow& row);
+  void list_shared_bodies();
   void evaluate_frame(int body, BodyColumns state);
   void evaluate_coordinate(JointRow& joint, BodyColumns state);
+  static void evaluate_coupling(JointRow& joint, BodyColumns state);
 
   const System& system_;
   std::vector<JointRow> joints_;
@@ -109,7 +122,7 @@ class JointRows {
   std::vector<Frame> frames_;         // by body
   std::vector<Vec6> on_body_;         // the wrench being summed
   std::vector<EndMotion> elsewhere_;  // the poses of measure_gaps()
-  std::vector<Coupling> couplings_;
+  std::vector<SharedBody> shared_;
   Columns wrench_;
 };
 

@@ -21,7 +21,7 @@ constexpr int kMostChangesEach = 16;  // of a coordinate's mode in the search fo
 
 // m or rad. Roundings of a slider's coordinate grow with its limits.
 double unit_of(const Joint& joint, double length) {
-  if (std::holds_alternative<HingeJoint>(joint.type)) return 1;
+  if (turns(joint)) return 1;
   for (const double limit : {joint.lower, joint.upper}) {
     if (std::isfinite(limit)) length = std::max(length, std::abs(limit));
   }

@@ -25,14 +25,26 @@ Joints::Joints(const Scene& scene, const System& system)
     : system_(system),
       rows_(scene, system),
       factor_(rows_.make_factor()),
-      multipliers_(scene.joints.size()),
-      correction_(scene.joints.size()),
+      rotor_(rows_.size(), 0.0),
+      rotor_impulse_(rows_.size(), 0.0),
+      multipliers_(rows_.size()),
+      correction_(rows_.size()),
       free_(system.size()) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     names_.push_back(scene.joint_name(k));
     const Joint& joint = scene.joints[k];
     if (joint.stiffness > 0 && turns(joint)) sprung_.push_back({JointCoordinate(scene, joint), k, 0});
+    if (const auto* compound = std::get_if<CompoundJoint>(&joint.type)) {
+      const auto& axes = compound->axes;
+      const auto turn = [](const SeriesAxis& axis) { return axis.turns; };
+      if (std::count_if(axes.begin(), axes.end(), turn) == kMostSeriesAxesOfAKind) {
+        const auto first = std::find_if(axes.begin(), axes.end(), turn) - axes.begin();
+        three_hinges_.push_back(
+            {AxisSeries(axes, scene.pose(joint.a), scene.pose(joint.b)), k, static_cast<std::size_t>(first), 0});
+      }
+    }
   }
+  for (std::size_t k = 0; k < scene.couplings.size(); ++k) names_.push_back(scene.coupling_name(k));
   total_.resize(kWrenchColumns, system.size());
   list_components();
   BodyTable start(system.size());
@@ -40,7 +52,26 @@ Joints::Joints(const Scene& scene, const System& system)
   find_ranks(start.columns());
 }
 
+// Beside such a position the first angle turns quickly; behind it, it is half a turn off.
+void Joints::look_for_parallel_hinges(BodyColumns state) {
+  constexpr double kParallel = 1e-3;  // rad: three digits of the angles are lost
+  for (ThreeHinges& hinges : three_hinges_) {
+    const auto end = [&](int body) -> SeriesEnd {
+      if (body == kWorld) return {};
+      return {state.position(body), Vec3::Zero(), Vec3::Zero(), state.rotation(body)};
+    };
+    const JointRow& row = rows_.joint(hinges.joint);
+    const AxisSeries::Rows at = hinges.series.at(end(row.end[0]), end(row.end[1]));
+    const double x = at.coordinates[hinges.first].gap, jump = std::remainder(x - hinges.x, 2 * std::numbers::pi);
+    if ((std::abs(at.sine) < kParallel || std::abs(jump) > std::numbers::pi / 2) && warning_.empty())
+      warning_ =
+          fmt::format("two hinges of {} have become parallel, where its angles are not unique", names_[hinges.joint]);
+    hinges.x = x;
+  }
+}
+
 void Joints::end_step(BodyColumns state) {
+  look_for_parallel_hinges(state);
   for (SprungHinge& hinge : sprung_) {
     const double x = hinge.coordinate.at(state).x;
     if (std::abs(x - hinge.x) > std::numbers::pi && warning_.empty())
@@ -70,7 +101,7 @@ void Joints::count_rows(BodyColumns state) {
 
 double Joints::coordinate_effort(std::size_t joint) const {
   const JointRow& at = rows_.joint(joint);
-  return at.row == CoordinateRow::none ? 0 : multipliers_[joint][at.rows];
+  return at.row == CoordinateRow::none ? 0 : multipliers_[joint][at.rows] + rotor_impulse_[joint];
 }
 
 double Joints::largest_multiplier() const {
@@ -102,14 +133,18 @@ void Joints::solve() {
 // corrects the solution (the corrected semi-normal equations; Å. Björck, 1987).
 void Joints::refine() {
   const double* const wrench = rows_.wrench_of(multipliers_);
-  for (std::size_t k = 0; k < rows_.size(); ++k)
-    correction_[k] = right_side_[k] - rows_.response(rows_.joint(k), wrench);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const JointRow& joint = rows_.joint(k);
+    correction_[k] = right_side_[k] - rows_.response(joint, wrench);
+    if (joint.carries_rotor()) correction_[k][joint.rows] += rotor_change(k, multipliers_);
+  }
   factor_.solve(correction_);
   for (std::size_t k = 0; k < rows_.size(); ++k) multipliers_[k] += correction_[k];
 }
 
 const double* Joints::hold(BodyColumns state, const double* wrench, Rows rows) {
   factorise(state, rows);
+  std::fill(rotor_impulse_.begin(), rotor_impulse_.end(), 0.0);
   for (const int body : rows_.moved()) free_[body] = rows_.free_acceleration(body, wrench);
   solve_for([&](const JointRow& joint) -> Vec6 { return -joint.bias - rows_.times_acceleration(joint, free_); });
   const double* const held = rows_.wrench_of(multipliers_);
@@ -137,17 +172,45 @@ double Joints::coordinate_acceleration(std::size_t joint, BodyColumns state) con
   return sum;
 }
 
+// The speed that impulses along a coordinate's row take from its rotor, as a change: -l / I.
+double Joints::rotor_change(std::size_t k, const std::vector<Vec6>& impulses) const {
+  const JointRow& joint = rows_.joint(k);
+  return -impulses[k][joint.rows] / joint.armature;
+}
+
+void Joints::note_rotors(BodyColumns state, double stagger) {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const JointRow& joint = rows_.joint(k);
+    if (joint.armature == 0) continue;
+    const JointCoordinate::Value at = joint.coordinate->at(state);
+    rotor_[k] = at.rate - stagger * at.bias;
+  }
+}
+
 const double* Joints::velocity_impulse(BodyColumns state) {
   factorise(state, Rows::chosen_anew);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const JointRow& joint = rows_.joint(k);
+    const bool is_stopped = joint.armature > 0 && joint.row != CoordinateRow::none;
+    rotor_impulse_[k] = is_stopped ? joint.armature * (joint.rate - rows_.times_velocity(joint)[joint.rows]) : 0;
+  }
   return impulse_against_velocities();
 }
 
-const double* Joints::impulse_against_velocities() {
-  solve_for([&](const JointRow& joint) -> Vec6 {
-    Vec6 b = -rows_.times_velocity(joint);
+const double* Joints::velocity_impulse_with_rotors(BodyColumns state) {
+  factorise(state, Rows::chosen_anew);
+  return impulse_against_velocities(true);
+}
+
+const double* Joints::impulse_against_velocities(bool with_rotors) {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const JointRow& joint = rows_.joint(k);
+    Vec6& b = multipliers_[k];
+    b = -rows_.times_velocity(joint);
     if (joint.row != CoordinateRow::none) b[joint.rows] += joint.rate;
-    return b;
-  });
+    if (joint.carries_rotor()) b[joint.rows] = with_rotors ? b[joint.rows] + rotor_[k] : 0;
+  }
+  solve();
   return rows_.wrench_of(multipliers_);
 }
 
@@ -226,23 +289,42 @@ void Joints::aim_driven_coordinates(BodyColumns start, double h) {
 bool Joints::close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt,
                    double within) {
   factorise(start, Rows::chosen_anew);
-  solve_for([&](const JointRow& joint) -> Vec6 {
-    Vec6 b = -(rows_.times_velocity(joint) + 0.5 * h * joint.bias + joint.gap / h);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const JointRow& joint = rows_.joint(k);
+    Vec6& b = multipliers_[k];
+    b = -(rows_.times_velocity(joint) + 0.5 * h * joint.bias + joint.gap / h);
     if (joint.row == CoordinateRow::driven) b[joint.rows] += joint.rate;
-    return b;
-  });
+    if (joint.carries_rotor()) b[joint.rows] += rotor_[k];
+  }
+  solve();
   aim_driven_coordinates(start, h);
   total_multipliers_ = multipliers_;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    aim_rotors(start, h);
     const double gap = rows_.measure_gaps(attempt(rows_.wrench_of(total_multipliers_)));
-    if (is_closed(gap, last, within)) return std::isfinite(gap);
+    if (is_closed(gap, last, within)) return turn_rotors(), std::isfinite(gap);
     if (gap > extent_) return false;
     solve_for([h](const JointRow& joint) -> Vec6 { return -joint.gap / h; });
     for (std::size_t k = 0; k < rows_.size(); ++k) total_multipliers_[k] += multipliers_[k];
     last = gap;
   }
+  turn_rotors();
   return last <= kOpen * size_;
+}
+
+// A coordinate with a rotor ends where its rotor does after the impulses so far.
+void Joints::aim_rotors(BodyColumns start, double h) {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    JointRow& joint = rows_.joint(k);
+    if (joint.carries_rotor())
+      joint.target = joint.coordinate->at(start).x + h * (rotor_[k] + rotor_change(k, total_multipliers_));
+  }
+}
+
+void Joints::turn_rotors() {
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    if (rows_.joint(k).carries_rotor()) rotor_[k] += rotor_change(k, total_multipliers_);
 }
 
 }  // namespace rigor

@@ -25,8 +25,14 @@ class Joints : public ConstraintForces {
 
   const double* hold(BodyColumns state, const double* wrench, Rows rows) override;
 
-  // Wrench columns of the impulse [N s, N m s] after which J V = 0 at this pose. Valid until the next call.
+  // Wrench columns of the impulse [N s, N m s] after which J V = 0 at this pose. Valid until the next call. Rotors
+  // have the speeds of their coordinates in `state`,
   const double* velocity_impulse(BodyColumns state);
+  // or those that note_rotors() and the drifts since then gave them.
+  const double* velocity_impulse_with_rotors(BodyColumns state);
+  // Before a step of kicks and drifts changes velocities, notes the speed of each rotor (joint_rows.h), which no kick
+  // acts on. `stagger` [s]: how long before the pose of `state` its velocities belong.
+  void note_rotors(BodyColumns state, double stagger = 0);
   void project(MutableBodyColumns state);
 
   // Finds the impulse at the pose `start` that closes all joints at the end of a drift of length h [s] with the
@@ -74,7 +80,8 @@ class Joints : public ConstraintForces {
 
   // Why the work since begin_step() is less than what was requested; empty if it is not.
   void begin_step() { warning_.clear(); }
-  // Notes where a hinge with a spring has turned by half a turn, at which the angle that the spring goes by jumps.
+  // Notes where a hinge with a spring has turned by half a turn, at which the angle that the spring goes by jumps; and
+  // where three hinges in series pass a position in which their angles are not unique.
   void end_step(BodyColumns state);
   std::string warning() const { return at_start_.empty() ? warning_ : at_start_; }
   // Supports trial steps: read the notes, try a step, and restore them if the step is discarded.
@@ -86,6 +93,7 @@ class Joints : public ConstraintForces {
   void find_ranks(BodyColumns state);
   void look_for_contradictions();
   void look_for_singularity(BodyColumns start);
+  void look_for_parallel_hinges(BodyColumns state);
 
   void list_components();
   void factorise(BodyColumns state, Rows rows);
@@ -96,7 +104,10 @@ class Joints : public ConstraintForces {
   }
   void solve();  // for the right side in multipliers_
   void refine();
-  const double* impulse_against_velocities();
+  const double* impulse_against_velocities(bool with_rotors = false);
+  void aim_rotors(BodyColumns start, double h);
+  void turn_rotors();
+  double rotor_change(std::size_t k, const std::vector<Vec6>& impulses) const;
   void aim_driven_coordinates(BodyColumns start, double h);
   void close_pose(MutableBodyColumns state);
   bool is_closed(double gap, double last, double within = 0) const;
@@ -107,6 +118,8 @@ class Joints : public ConstraintForces {
   std::vector<std::string> names_;
   JointRows rows_;
   BlockCholesky factor_;
+  std::vector<double> rotor_;          // rad/s, m/s: by joint
+  std::vector<double> rotor_impulse_;  // by joint: what its rotor gave to the last impulse of a coordinate that is kept
   std::vector<Vec6> multipliers_, total_multipliers_, right_side_, correction_;  // by joint
   std::vector<Vec6> free_;  // by body: accelerations without joints
   std::vector<int> component_of_body_;
@@ -119,6 +132,12 @@ class Joints : public ConstraintForces {
     double x;  // rad, when the last step ended
   };
   std::vector<SprungHinge> sprung_;
+  struct ThreeHinges {  // of a compound joint
+    AxisSeries series;
+    std::size_t joint, first;  // the first hinge among its axes
+    double x;                  // rad, of the first hinge, when the last step ended
+  };
+  std::vector<ThreeHinges> three_hinges_;
   std::string at_start_, warning_;
 };
 

@@ -59,7 +59,7 @@ class FastestRate {
     return body == kWorld || scene_.bodies[body].fixed ? 0 : 1 / scene_.bodies[body].mass;
   }
   // Turns an effort into a force, and a rate into a speed.
-  double arm_of(const Joint& joint) const { return std::holds_alternative<HingeJoint>(joint.type) ? L_ : 1; }
+  double arm_of(const Joint& joint) const { return turns(joint) ? L_ : 1; }
   void take_motor(const Motor& motor) {
     const Joint& joint = scene_.joints[motor.joint];
     const double arm = arm_of(joint);

@@ -26,6 +26,11 @@ double kinetic_energy_of(const Scene& scene, BodyColumns bodies, std::size_t i) 
 double kinetic_energy(const Scene& scene, BodyColumns bodies) {
   double sum = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) sum += kinetic_energy_of(scene, bodies, i);
+  for (const Joint& joint : scene.joints) {
+    if (joint.armature == 0) continue;
+    const double rate = JointCoordinate(scene, joint).at(bodies).rate;
+    sum += 0.5 * joint.armature * rate * rate;
+  }
   return sum;
 }
 

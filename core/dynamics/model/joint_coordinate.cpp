@@ -6,23 +6,19 @@
 namespace rigor {
 namespace {
 
-struct EndState {
-  Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
-  Mat3 R = Mat3::Identity();
-
-  EndState(BodyColumns bodies, int body) {
-    if (body == kWorld) return;
-    const auto i = static_cast<std::size_t>(body);
-    position = bodies.position(i), velocity = bodies.velocity(i);
-    angular_velocity = bodies.angular_velocity(i), R = bodies.rotation(i);
-  }
-};
+SeriesEnd end_state(BodyColumns bodies, int body) {
+  if (body == kWorld) return {};
+  const auto i = static_cast<std::size_t>(body);
+  return {bodies.position(i), bodies.velocity(i), bodies.angular_velocity(i), bodies.rotation(i)};
+}
 
 }  // namespace
 
 JointCoordinate::JointCoordinate(const Scene& scene, const Joint& joint)
     : a_(joint.a), b_(joint.b), turns_(rigor::turns(joint)) {
   const BodyPose a = scene.pose(joint.a), b = scene.pose(joint.b);
+  if (const auto* of_compound = std::get_if<CompoundAxis>(&joint.type))
+    series_.emplace(of_compound->axes, a, b), index_ = of_compound->index;
   const Vec3 axis = *free_axis(joint), across = axis.unitOrthogonal();
   axis_a_ = a.orientation.conjugate() * axis;
   reference_a_ = a.orientation.conjugate() * across;
@@ -31,7 +27,8 @@ JointCoordinate::JointCoordinate(const Scene& scene, const Joint& joint)
 }
 
 JointCoordinate::Value JointCoordinate::at(BodyColumns bodies) const {
-  const EndState a(bodies, a_), b(bodies, b_);
+  if (series_) return in_series(bodies);
+  const SeriesEnd a = end_state(bodies, a_), b = end_state(bodies, b_);
   const Vec3 axis = a.R * axis_a_;
   Value value;
   if (turns_) {
@@ -50,6 +47,16 @@ JointCoordinate::Value JointCoordinate::at(BodyColumns bodies) const {
   value.rate = axis.dot(coming) + a.angular_velocity.dot(value.torque_a);
   value.bias = 2 * turning.dot(coming) + a.angular_velocity.cross(turning).dot(line);
   value.force = axis;
+  return value;
+}
+
+JointCoordinate::Value JointCoordinate::in_series(BodyColumns bodies) const {
+  const SeriesEnd a = end_state(bodies, a_), b = end_state(bodies, b_);
+  const AxisSeries::Row row = series_->at(a, b).coordinates[index_];
+  Value value;
+  value.x = row.gap, value.rate = row.rate, value.bias = row.bias;
+  value.force = row.force, value.torque_b = row.torque;
+  value.torque_a = -row.torque - (b.position - a.position).cross(row.force);
   return value;
 }
 

@@ -1,9 +1,12 @@
-// The one coordinate x of a hinge or a slider, on which its spring, damper, limits and motors act. For a hinge it is
-// the angle [rad] of b relative to a about the axis since t = 0, from -pi to pi. For a slider it is the displacement
-// [m] of b's centre along the axis.
+// The one coordinate x of a hinge, a slider or an axis of a compound joint, on which its spring, damper, limits and
+// motors act. For a hinge it is the angle [rad] of b relative to a about the axis since t = 0, from -pi to pi. For a
+// slider it is the displacement [m] of b's centre along the axis.
 #pragma once
 
+#include <optional>
+
 #include "core/engine/body_table.h"
+#include "core/scene/joints/axis_series.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
@@ -30,11 +33,15 @@ class JointCoordinate {
   double with_turns(double x, double near) const;
 
  private:
+  Value in_series(BodyColumns bodies) const;
+
   int a_, b_;
   bool turns_;
-  Vec3 axis_a_;                     // unit, in a's frame
-  Vec3 reference_a_, reference_b_;  // across the axis, the same direction at t = 0; of a hinge
-  double start_ = 0;                // m: where b's centre is along the axis at t = 0; of a slider
+  std::optional<AxisSeries> series_;  // of an axis of a compound joint,
+  std::size_t index_ = 0;             // and which of them it is
+  Vec3 axis_a_;                       // unit, in a's frame
+  Vec3 reference_a_, reference_b_;    // across the axis, the same direction at t = 0; of a hinge
+  double start_ = 0;                  // m: where b's centre is along the axis at t = 0; of a slider
 };
 
 }  // namespace rigor

@@ -8,7 +8,9 @@ namespace rigor {
 namespace {
 
 const FeatureWord kPlainWords[] = {
+    {Feature::armature, "armature"},
     {Feature::contact_filter, "contact-filter"},
+    {Feature::coupling, "coupling"},
     {Feature::fixed_body, "fixed-body"},
     {Feature::friction_coulomb, "friction:coulomb"},
     {Feature::friction_infinite, "friction:infinite"},
@@ -17,6 +19,7 @@ const FeatureWord kPlainWords[] = {
     {Feature::joint_friction, "joint-friction"},
     {Feature::joint_limit, "joint-limit"},
     {Feature::joint_limit_beyond_half_turn, "joint-limit:beyond-half-turn"},
+    {Feature::joint_limit_of_compound_slider, "joint-limit:compound-slider"},
     {Feature::joint_limit_that_bounces, "joint-limit-that-bounces"},
     {Feature::joint_loop, "joint-loop"},
     {Feature::joint_spring, "joint-spring"},
@@ -51,7 +54,8 @@ void for_each_pair(const Visitor& visitor) {
 
 std::vector<FeatureWord> all_words() {
   std::vector<FeatureWord> rows(std::begin(kPlainWords), std::end(kPlainWords));
-  for (const JointTypeInfo& type : joint_types()) rows.push_back({joint_feature(type.prototype), "joint:" + type.word});
+  for (const JointTypeInfo& type : joint_types())
+    if (type.is_whole) rows.push_back({joint_feature(type.prototype), "joint:" + type.word});
   for_each_pair([&](int a, int b) {
     const auto& table = shape_types();
     const auto [first, second] =
@@ -89,7 +93,8 @@ Features contacts_of_all_shapes() {
 
 Features joints_of_all_types() {
   Features joints;
-  for (const JointTypeInfo& type : joint_types()) joints.insert(joint_feature(type.prototype));
+  for (const JointTypeInfo& type : joint_types())
+    if (type.is_whole) joints.insert(joint_feature(type.prototype));
   return joints;
 }
 

@@ -17,7 +17,9 @@
 namespace rigor {
 
 enum class Feature : int {
+  armature,          // inertia of a rotor on a joint's axis
   contact_filter,    // pairs of bodies that never touch
+  coupling,          // two joints' coordinates in a fixed ratio
   fixed_body,        // a fixed body that is no plane
   friction_coulomb,  // a finite coefficient above zero
   friction_infinite,
@@ -25,9 +27,10 @@ enum class Feature : int {
   joint_damper,
   joint_friction,  // Coulomb friction of a hinge or slider
   joint_limit,
-  joint_limit_beyond_half_turn,  // a limit of an angle beyond -pi or pi
-  joint_limit_that_bounces,      // a limit with a restitution
-  joint_loop,                    // joints that close a loop, through bodies or through the world
+  joint_limit_beyond_half_turn,    // a limit of an angle beyond -pi or pi
+  joint_limit_of_compound_slider,  // a limit on a slider of a compound joint, in a scene with contacts
+  joint_limit_that_bounces,        // a limit with a restitution
+  joint_loop,                      // joints that close a loop, through bodies or through the world
   joint_spring,
   joints_with_contacts,
   joints_with_dampers,

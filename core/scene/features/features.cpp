@@ -119,7 +119,8 @@ bool add_contacts(const Scene& scene, NeedList& needs) {
 void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
   const Joint& joint = scene.joints[k];
   const std::string because = scene.joint_name(k);
-  needs.add(joint_feature(joint.type), because);
+  if (!is_axis_of_compound(joint)) needs.add(joint_feature(joint.type), because);
+  if (joint.armature > 0) needs.add(Feature::armature, because);
   if (joint.stiffness > 0) needs.add(Feature::joint_spring, because);
   if (joint.damping > 0) needs.add(Feature::joint_damper, because);
   if (joint.has_limits()) needs.add(Feature::joint_limit, because);
@@ -162,6 +163,7 @@ std::vector<Need> needs_of(const Scene& scene) {
     needs.add(Feature::timed_force, fmt::format("a force on '{}'", scene.body_name(scene.forces.front().body)));
   }
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k, needs);
+  if (!scene.couplings.empty()) needs.add(Feature::coupling, scene.coupling_name(0));
   for (const Motor& motor : scene.motors) {
     needs.add(feature_of(motor), fmt::format("{} {}",
                                              motor.is_friction ? "friction in"
@@ -172,6 +174,11 @@ std::vector<Need> needs_of(const Scene& scene) {
   const bool touches = add_contacts(scene, needs);
   if (scene.joints.empty()) return needs.take();
   if (touches) needs.add(Feature::joints_with_contacts, "the scene, which has both joints and bodies that may touch,");
+  for (std::size_t k = 0; touches && k < scene.joints.size(); ++k) {
+    const Joint& joint = scene.joints[k];
+    if (is_axis_of_compound(joint) && !turns(joint) && joint.has_limits())
+      needs.add(Feature::joint_limit_of_compound_slider, scene.joint_name(k));
+  }
   if (is_damped(scene)) needs.add(Feature::joints_with_dampers, "the scene, which has both joints and dampers,");
   return needs.take();
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <type_traits>
 
 #include "core/base/math.h"
 
@@ -33,16 +34,31 @@ struct JointField {
 };
 
 template <typename Type>
+struct JointNumber {
+  const char* key = nullptr;  // of case files and of JSON
+  double Type::*value = nullptr;
+};
+
+// Whether a type visits vectors beside its fields, by a visit_vectors(joint, visitor). Written without concepts, for
+// some engines are built as C++17.
+template <typename Type, typename = void>
+struct has_vectors_of_its_own : std::false_type {};
+template <typename Type>
+struct has_vectors_of_its_own<Type, std::void_t<typename Type::HasVectorsOfItsOwn>> : std::true_type {};
+
+template <typename Type>
 struct JointDescriptor {
   const char* word;                             // of case files, JSON and features ("joint:hinge")
   const char* meaning;                          // one line of documentation
   std::array<JointField<Type>, 3> fields = {};  // the unused ones have no key
   std::optional<unsigned> locks = {};           // a mask of Lock; empty where no mask describes the constraint
   FreeCoordinate coordinate = FreeCoordinate::none;
+  JointNumber<Type> number = {};  // without a key if the type has none
 
   template <typename Joint, typename Visitor>
   static void visit(Joint& joint, const Visitor& visitor) {
     constexpr JointDescriptor descriptor = Type::descriptor();
+    if constexpr (has_vectors_of_its_own<Type>::value) Type::visit_vectors(joint, visitor);
     for (const JointField<Type>& field : descriptor.fields)
       if (field.key) visitor(field.key, field.kind, joint.*field.value);
   }

@@ -8,13 +8,15 @@
 
 #include "core/base/near_match.h"
 #include "core/scene/joint_rates.h"
+#include "core/scene/joints/axis_series.h"
 #include "core/scene/toml/time_table_reader.h"
 
 namespace rigor {
 namespace {
 
 const Keys kOfEvery = {"type", "name", "a", "b"};
-const Keys kOfCoordinate = {"stiffness", "damping", "rest", "friction", "lower", "upper", "restitution"};
+const Keys kOfCoordinate = {"stiffness", "damping", "rest", "friction", "armature", "lower", "upper", "restitution"};
+const Keys kOfSeriesAxis = {"type", "name", "anchor", "axis"};
 
 JointType read_type(const TableReader& row, const Ends& ends, JointType type) {
   for_each_vector(type, [&](const char* key, JointVector kind, Vec3& vector) {
@@ -24,6 +26,7 @@ JointType read_type(const TableReader& row, const Ends& ends, JointType type) {
                          (kind == JointVector::point_of_b && ends.b == kWorld);
     if (is_in_W) vector += ends.offset;
   });
+  for_each_number(type, [&](const char* key, double& number) { number = row.at(key).number(); });
   return type;
 }
 
@@ -39,6 +42,7 @@ void read_limits(const TableReader& row, Joint& joint) {
 void read_coordinate(const TableReader& row, Joint& joint) {
   if (const auto stiffness = row.find("stiffness")) joint.stiffness = stiffness->non_negative();
   if (const auto damping = row.find("damping")) joint.damping = damping->non_negative();
+  if (const auto armature = row.find("armature")) joint.armature = armature->non_negative();
   if (const auto rest = row.find("rest")) {
     if (joint.stiffness == 0) rest->refuse("a joint without stiffness has no rest; allowed: stiffness, too");
     joint.rest = rest->number();
@@ -62,6 +66,7 @@ std::size_t find_joint(const TomlValue& value, const Scene& scene) {
 const Keys& joint_keys() {
   static const Keys keys = [] {
     Keys all = kOfEvery;
+    all.push_back("axes");
     for (const JointTypeInfo& type : joint_types()) {
       std::copy_if(type.keys.begin(), type.keys.end(), std::back_inserter(all),
                    [&](const std::string& key) { return std::find(all.begin(), all.end(), key) == all.end(); });
@@ -78,27 +83,86 @@ const Keys& motor_keys() {
   return keys;
 }
 
-Joint read_joint(TableReader row, const Scene& scene, const Ends& ends, bool check_velocities) {
+namespace {
+
+// The axes of a compound joint, each with what only it has.
+std::vector<JointOfFile> read_series(const TableReader& row, const Ends& ends, const Joint& whole) {
+  Keys keys = kOfSeriesAxis;
+  keys.insert(keys.end(), kOfCoordinate.begin(), kOfCoordinate.end());
+  std::vector<SeriesAxis> axes;
+  std::vector<JointOfFile> rows;
+  for (TableReader& own : row.at("axes").tables(keys)) {
+    SeriesAxis axis;
+    axis.turns = own.at("type").choice({"hinge", "slider"}) == "hinge";
+    axis.axis = own.at("axis").direction();
+    if (axis.turns) axis.anchor = own.at("anchor").vector() + ends.offset;
+    if (!axis.turns && own.find("anchor")) own.at("anchor").refuse("a slider has no anchor; allowed: axis alone");
+    Joint part;
+    part.a = whole.a, part.b = whole.b;
+    if (const auto name = own.find("name")) part.name = name->text() + ends.copy;
+    axes.push_back(axis);
+    rows.push_back({part, own});
+  }
+  if (const std::string why = why_no_series(axes); !why.empty()) row.at("axes").refuse(why);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].joint.type = CompoundAxis{axes, i};
+    read_coordinate(rows[i].row, rows[i].joint);
+  }
+  Joint first = whole;
+  first.type = CompoundJoint{axes};
+  rows.insert(rows.begin(), {first, row});
+  return rows;
+}
+
+}  // namespace
+
+std::vector<JointOfFile> read_joint(TableReader row, const Scene& scene, const Ends& ends, bool check_velocities) {
   Keys names;
-  for (const JointTypeInfo& type : joint_types()) names.push_back(type.word);
+  for (const JointTypeInfo& type : joint_types())
+    if (type.is_whole) names.push_back(type.word);
   const std::string name = row.at("type").choice(names);
   const auto type = std::find_if(joint_types().begin(), joint_types().end(),
                                  [&](const JointTypeInfo& info) { return info.word == name; });
-  Joint joint;
-  joint.a = ends.a, joint.b = ends.b;
-  joint.type = read_type(row, ends, type->prototype);
+  const bool is_series = std::holds_alternative<CompoundJoint>(type->prototype);
   const bool has_coordinate = type->coordinate != FreeCoordinate::none;
   Keys keys = kOfEvery;
   keys.insert(keys.end(), type->keys.begin(), type->keys.end());
+  if (is_series) keys.push_back("axes");
   if (has_coordinate) keys.insert(keys.end(), kOfCoordinate.begin(), kOfCoordinate.end());
   row.narrow(keys, fmt::format("a {} joint", name));
+  Joint joint;
+  joint.a = ends.a, joint.b = ends.b;
   if (const auto own = row.find("name")) joint.name = own->text() + ends.copy;
-  if (has_coordinate) read_coordinate(row, joint);
-  refuse_if(fault_of(joint, scene), row);
-  if (!check_velocities) return joint;
-  if (const std::string why = why_rates_break(scene, joint); !why.empty())
-    row.refuse(why + "; `rigor settle FILE` prints the file with velocities that keep it");
-  return joint;
+  std::vector<JointOfFile> rows;
+  if (is_series) {
+    rows = read_series(row, ends, joint);
+  } else {
+    joint.type = read_type(row, ends, type->prototype);
+    if (has_coordinate) read_coordinate(row, joint);
+    rows.push_back({joint, row});
+  }
+  for (const JointOfFile& read : rows) {
+    refuse_if(fault_of(read.joint, scene), read.row);
+    if (!check_velocities) continue;
+    if (const std::string why = why_rates_break(scene, read.joint); !why.empty())
+      read.row.refuse(why + "; `rigor settle FILE` prints the file with velocities that keep it");
+  }
+  return rows;
+}
+
+const Keys& coupling_keys() {
+  static const Keys keys = {"joint", "to", "ratio", "offset"};
+  return keys;
+}
+
+Coupling read_coupling(const TableReader& row, const Scene& scene) {
+  Coupling coupling;
+  coupling.joint = static_cast<int>(find_joint(row.at("joint"), scene));
+  coupling.to = static_cast<int>(find_joint(row.at("to"), scene));
+  coupling.ratio = row.at("ratio").number();
+  if (const auto offset = row.find("offset")) coupling.offset = offset->number();
+  refuse_if(fault_of(coupling, scene), row);
+  return coupling;
 }
 
 void read_times(const TableReader& row, double& from, double& until) {

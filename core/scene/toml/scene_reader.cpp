@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/scene/contact_laws.h"
+#include "core/scene/joint_rates.h"
 #include "core/scene/toml/body_index.h"
 #include "core/scene/toml/body_reader.h"
 #include "core/scene/toml/joint_reader.h"
@@ -28,6 +29,7 @@ class SceneReader {
     index_.check_arrays_are_used();
     for (const TableReader& row : rows(table, "spring", kSpringKeys)) add_spring(row);
     for (const TableReader& row : rows(table, "joint", joint_keys())) add_joint(row);
+    for (const TableReader& row : rows(table, "coupling", coupling_keys())) add_coupling(row);
     for (const TableReader& row : rows(table, "motor", motor_keys())) scene_.motors.push_back(read_motor(row, scene_));
     if (const auto law = table.find("contact_default")) {
       scene_.contact_default = read_law(law->table({"restitution", "friction"}), {});
@@ -102,12 +104,22 @@ class SceneReader {
 
   void add_joint(const TableReader& row) {
     for (const Ends& ends : read_ends(row, "joint")) {
-      const Joint joint = read_joint(row, scene_, ends, velocities_ == InitialVelocities::checked);
-      if (!joint.name.empty() && !joint_names_.insert(joint.name).second)
-        row.at("name").refuse(fmt::format("there is already a joint '{}'; allowed: another name", shown(joint.name)));
-      scene_.joints.push_back(joint);
-      if (const auto friction = read_friction(row, scene_)) scene_.motors.push_back(*friction);
+      for (const auto& [joint, of] : read_joint(row, scene_, ends, velocities_ == InitialVelocities::checked)) {
+        if (!joint.name.empty() && !joint_names_.insert(joint.name).second)
+          of.at("name").refuse(fmt::format("there is already a joint '{}'; allowed: another name", shown(joint.name)));
+        scene_.joints.push_back(joint);
+        if (!free_axis(joint)) continue;
+        if (const auto friction = read_friction(of, scene_)) scene_.motors.push_back(*friction);
+      }
     }
+  }
+
+  void add_coupling(const TableReader& row) {
+    scene_.couplings.push_back(read_coupling(row, scene_));
+    refuse_if(fault_of_circle(scene_.couplings, scene_.couplings.size() - 1, scene_), row);
+    if (velocities_ != InitialVelocities::checked) return;
+    if (const std::string why = why_rates_break(scene_, scene_.couplings.back()); !why.empty())
+      row.refuse(why + "; `rigor settle FILE` prints the file with velocities that keep it");
   }
 
   static ContactLaw read_law(const TableReader& row, ContactLaw law) {
@@ -169,7 +181,7 @@ const std::vector<std::string>& case_keys() {
 }
 
 const std::vector<std::string>& scene_keys() {
-  static const Keys keys = {"gravity", "body",    "array",           "spring", "joint",
+  static const Keys keys = {"gravity", "body",    "array",           "spring", "joint",       "coupling",
                             "motor",   "contact", "contact_default", "force",  "self_contact"};
   return keys;
 }

@@ -43,9 +43,11 @@ std::map<std::string, Words> fields_of_table(const Rows& rows) {
 BOOST_AUTO_TEST_SUITE(adapters_plugin_scene_schema)
 
 BOOST_AUTO_TEST_CASE(has_the_joint_types_of_the_table_with_their_vectors) {
-  const Words shared = {"type", "a", "b", "stiffness", "damping"};
+  const Words shared = {"type", "a", "b", "stiffness", "damping", "axes"};
   const auto in_schema = fields_by_word(definitions().at("joint").at("oneOf"), shared);
-  BOOST_TEST((in_schema == fields_of_table(joint_types())));
+  auto in_table = fields_of_table(joint_types());
+  in_table.erase("compound-axis");  // it is written among the axes of its compound joint
+  BOOST_TEST((in_schema == in_table));
 }
 
 // Points of a hull are no field of the descriptor. Parts of a compound stand in a list of their own, `shapes`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rigor {
 namespace {
@@ -43,6 +44,17 @@ void JointGeometry::set_ends(const BodyPose& pose_a, const BodyPose& pose_b, con
   const ForJoints set{
       [&](const UniversalJoint& type) { share(type.anchor), axes(type.axis, type.axis2), holds_ = Angle::right_angle; },
       [&](const DistanceJoint& type) { a_.point = type.point_a, b_.point = type.point_b, place_ = Place::distance; },
+      [&](const CompoundAxis&) { place_ = Place::anywhere; },
+      [&](const CompoundJoint& type) {
+        series_.emplace(type.axes, pose_a, pose_b), place_ = Place::series, holds_ = Angle::series;
+      },
+      [&](const PlanarJoint& type) {
+        share(type.anchor), axes(type.normal, type.normal), place_ = Place::plane, holds_ = Angle::axis;
+      },
+      [&](const ScrewJoint& type) {
+        share(type.anchor), axes(type.axis, type.axis), place_ = Place::thread, holds_ = Angle::axis;
+        pitch_ = type.pitch;
+      },
       [&]<typename Type>(const Type&) {
         constexpr unsigned locks = Type::descriptor().locks.value(), turns = locks & Lock::turns;
         const Vec3 *anchor = anchor_of(joint), *axis = axis_of(joint);
@@ -54,25 +66,57 @@ void JointGeometry::set_ends(const BodyPose& pose_a, const BodyPose& pose_b, con
   std::visit(set, joint.type);
 }
 
+// The locked rows of a compound joint: of forces, or of torques.
+double JointGeometry::series_size(BodyColumns bodies, bool of_turns, double AxisSeries::Row::*what) const {
+  const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
+  const AxisSeries::Rows rows = series_->at({a.centre, a.velocity, a.w, a.R}, {b.centre, b.velocity, b.w, b.R});
+  double size = 0;
+  for (int k = 0; k < rows.count; ++k) {
+    const AxisSeries::Row& row = rows.locked[static_cast<std::size_t>(k)];
+    if (row.force.isZero(0) == of_turns) size = std::hypot(size, row.*what);
+  }
+  return size;
+}
+
+// How far b is along the axis from where its angle puts it. The angle is known up to whole turns.
+double JointGeometry::thread_gap(const MovingEnd& a, const MovingEnd& b) const {
+  const Quat turn = a.orientation.conjugate() * b.orientation * start_turn_.conjugate();
+  const double angle = 2 * std::atan2(a_.axis.dot(turn.vec()), turn.w());
+  const double off = a.axis.dot(b.point() - a.point()) / pitch_ - angle / (2 * std::numbers::pi);
+  return pitch_ * (off - std::round(off));
+}
+
 double JointGeometry::gap(BodyColumns bodies) const {
+  if (place_ == Place::anywhere) return 0;
+  if (place_ == Place::series) return series_size(bodies, false, &AxisSeries::Row::gap);
   const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
   const Vec3 apart = b.point() - a.point();
   if (place_ == Place::distance) return std::abs(apart.norm() - start_length_);
+  if (place_ == Place::plane) return std::abs(a.axis.dot(apart));
+  if (place_ == Place::thread) return std::hypot(a.axis.cross(apart).norm(), thread_gap(a, b));
   return place_ == Place::line ? a.axis.cross(apart).norm() : apart.norm();
 }
 
 double JointGeometry::gap_rate(BodyColumns bodies) const {
+  if (place_ == Place::anywhere) return 0;
+  if (place_ == Place::series) return series_size(bodies, false, &AxisSeries::Row::rate);
   const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
   if (place_ == Place::distance) {
     const Vec3 apart = b.point() - a.point(), rate = b.point_velocity() - a.point_velocity();
     return apart.isZero(0) ? rate.norm() : std::abs(apart.normalized().dot(rate));
   }
-  const bool is_in_frame_of_a = holds_ == Angle::all || place_ == Place::line;
+  const bool is_in_frame_of_a = holds_ == Angle::all || place_ != Place::point;
   const Vec3 rate = b.point_velocity() - (is_in_frame_of_a ? a.velocity_at(b.point()) : a.point_velocity());
+  if (place_ == Place::plane) return std::abs(a.axis.dot(rate));
+  if (place_ == Place::thread) {
+    const double off = a.axis.dot(rate) - pitch_ / (2 * std::numbers::pi) * a.axis.dot(b.w - a.w);
+    return std::hypot(a.axis.cross(rate).norm(), off);
+  }
   return place_ == Place::line ? a.axis.cross(rate).norm() : rate.norm();
 }
 
 double JointGeometry::twist(BodyColumns bodies) const {
+  if (holds_ == Angle::series) return series_size(bodies, true, &AxisSeries::Row::gap);
   if (holds_ == Angle::none) return 0;
   const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
   if (holds_ == Angle::all) return angle_between(start_turn_, a.orientation.conjugate() * b.orientation);
@@ -80,6 +124,7 @@ double JointGeometry::twist(BodyColumns bodies) const {
 }
 
 double JointGeometry::twist_rate(BodyColumns bodies) const {
+  if (holds_ == Angle::series) return series_size(bodies, true, &AxisSeries::Row::rate);
   if (holds_ == Angle::none) return 0;
   const MovingEnd a = end_motion(a_, bodies), b = end_motion(b_, bodies);
   const Vec3 rate = b.w - a.w;

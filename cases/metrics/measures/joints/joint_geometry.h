@@ -2,7 +2,10 @@
 // constraints on purpose, so that a mistake there cannot hide here.
 #pragma once
 
+#include <optional>
 #include "core/engine/body_table.h"
+
+#include "core/scene/joints/axis_series.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
@@ -41,7 +44,9 @@ class JointGeometry {
   bool holds_angle() const { return holds_ != Angle::none; }
   bool slides() const { return place_ == Place::line; }  // b's point moves along a line of a
 
-  // m: between the points; across the axis where b's point slides along a line; of a distance joint ||d| - d0|.
+  // m: between the points; across the axis where b's point slides along a line, and of a screw along the thread, too;
+  // out of a planar joint's plane; of a distance joint ||d| - d0|. Of a compound joint what its axes together do not
+  // allow; an axis alone holds nothing.
   double gap(BodyColumns bodies) const;
   // m/s: of the points against each other, in a's frame for sliding and fixed ones; of a distance joint |d'| along it.
   double gap_rate(BodyColumns bodies) const;
@@ -54,17 +59,21 @@ class JointGeometry {
   const Quat& start_turn() const { return start_turn_; }  // q_a⁻¹ q_b at t = 0
 
  private:
-  enum class Place { point, line, distance };
-  enum class Angle { none, axis, all, right_angle };
+  enum class Place { point, line, plane, thread, series, distance, anywhere };
+  enum class Angle { none, axis, all, right_angle, series };
 
   void set_ends(const BodyPose& pose_a, const BodyPose& pose_b, const Joint& joint);
+  double series_size(BodyColumns bodies, bool of_turns, double AxisSeries::Row::*what) const;
+  double thread_gap(const MovingEnd& a, const MovingEnd& b) const;
 
   Place place_ = Place::point;
   Angle holds_ = Angle::none;
   JointEnd a_, b_;
   Quat start_turn_ = Quat::Identity();
-  double start_length_ = 0;  // m
-  double start_angle_ = 0;   // rad, between the axes
+  std::optional<AxisSeries> series_;  // of a compound joint
+  double pitch_ = 0;                  // m, of a screw
+  double start_length_ = 0;           // m
+  double start_angle_ = 0;            // rad, between the axes
 };
 
 // Whether any joint of the scene holds more than places.

@@ -38,7 +38,12 @@ std::string why_reactions_are_unknown(const Scene& scene) {
   if (anything_can_touch(scene)) return "bodies can touch, and what contacts carry then is not known";
   for (const Joint& joint : scene.joints) {
     if (joint.has_limits()) return "a joint has limits, and what they carry is not known";
+    if (joint.armature > 0) return "a joint has an armature, and what its rotor gives is not computed";
+    if (std::holds_alternative<CompoundJoint>(joint.type) || std::holds_alternative<PlanarJoint>(joint.type) ||
+        std::holds_alternative<ScrewJoint>(joint.type))
+      return "what compound joints, planar joints and screws carry is not computed";
   }
+  if (!scene.couplings.empty()) return "joints are coupled, and what couplings carry is not computed";
   for (const Motor& motor : scene.motors) {
     if (motor.speed) return "a motor keeps a speed, and what it gives is not known";
     if (motor.servo && motor.servo->period > 0) return "a servo holds its effort between samples, which no state shows";
@@ -114,7 +119,10 @@ void JointReactions::add_rows_of(std::size_t joint, BodyColumns bodies) {
     const Mat3 like_a = b.R * geometry.start_turn().conjugate().toRotationMatrix();
     for (int k = 0; k < 3; ++k) add_angle_row(joint, a, b, a.R.col(k), like_a.col((k + 1) % 3));
   };
-  std::visit(ForJoints{add_distance_row, add_universal_rows, add_masked_rows}, scene_.joints[joint].type);
+  // Of the others nothing is said: see why_reactions_are_unknown().
+  std::visit(ForJoints{add_distance_row, add_universal_rows, add_masked_rows,
+                       LackingJoints<void, CompoundAxis, CompoundJoint, PlanarJoint, ScrewJoint>()},
+             scene_.joints[joint].type);
 }
 
 void JointReactions::find_rows(BodyColumns bodies) {

@@ -1,7 +1,7 @@
 // One body that swings or rotates about a fixed axis. On a hinge the axis may have any direction, and the body any
 // inertia. On a ball joint, or a distance joint to its centre of mass, the motion must stay in a plane. r is the vector
 // from the axis to the centre of mass across the axis, x the angle from its lowest position, and n the axis,
-//   (n . I n + m r²) x'' = -m g_n r sin x,   g_n the part of gravity across the axis
+//   (n . I n + m r² + armature) x'' = -m g_n r sin x,   g_n the part of gravity across the axis
 // (Landau and Lifshitz, Mechanics, 3rd ed., section 11, problem 1; Goldstein, Classical Mechanics, 3rd ed.,
 // section 5.6, for the axis through the centre of mass, where it turns evenly). How x goes: pendulum_phase.h.
 #include <fmt/format.h>
@@ -77,15 +77,17 @@ std::unique_ptr<Truth> on_distance(const Scene& scene, const Hung& hung, const D
 }
 
 std::unique_ptr<Truth> make_pendulum(const Scene& scene, double) {
-  check_needs(scene, "pendulum", "one body on one joint",
-              {joint_feature<BallJoint>(), joint_feature<DistanceJoint>(), joint_feature<HingeJoint>()});
+  check_needs(
+      scene, "pendulum", "one body on one joint",
+      {joint_feature<BallJoint>(), joint_feature<DistanceJoint>(), joint_feature<HingeJoint>(), Feature::armature});
   const Hung hung = find_hung(scene);
   if (const auto* ball = std::get_if<BallJoint>(&hung.joint->type)) return on_ball(scene, hung, ball->anchor);
   if (const auto* distance = std::get_if<DistanceJoint>(&hung.joint->type)) return on_distance(scene, hung, *distance);
   const auto& hinge = std::get<HingeJoint>(hung.joint->type);
   const ExtendedVec3 axis = extended(hinge.axis).normalized(),
                      arm = extended(scene.bodies[hung.body].position) - extended(hinge.anchor);
-  return swinging(scene, axis, {round_axis(hung.body, axis, arm, true)}, false, refuse_pendulum);
+  return swinging(scene, axis, {round_axis(hung.body, axis, arm, true)}, false, refuse_pendulum,
+                  Extended(hung.joint->armature));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A body on a slider, with a spring and damper and gravity along the rail n:
-//   m s'' = m g . n - k (s - rest) - c s',   s the way since t = 0.
+//   (m + armature) s'' = m g . n - k (s - rest) - c s',   s the way since t = 0.
 // The spring and damper are those of the joint, or of a spring along the rail from its centre to a fixed point. With a
 // spring it oscillates about rest + m g.n/k (damped_oscillation.h). Without a spring it falls along the rail: s = v0 t
 // + g.n t²/2, or with a damper s = u t + (v0 - u) (1 - e^(-c t/m)) m/c, u = m g.n/c. It does not rotate (Landau and
@@ -49,10 +49,11 @@ Sprung sprung_by(const Scene& scene, const Joint& joint, int index, const Extend
 class Sliding final : public BodyMotion {
  public:
   Sliding(const Body& body, const Sprung& sprung, const ExtendedVec3& rail, const ExtendedVec3& gravity,
-          double duration)
+          Extended armature, double duration)
       : start_(extended(body.position)), orientation_(extended(body.orientation)), rail_(rail) {
-    const Extended mass = body.mass;
-    pull_ = gravity.dot(rail_), velocity_ = extended(body.velocity).dot(rail_), decay_ = sprung.damping / (2 * mass);
+    const Extended mass = Extended(body.mass) + armature;
+    pull_ = Extended(body.mass) / mass * gravity.dot(rail_), velocity_ = extended(body.velocity).dot(rail_),
+    decay_ = sprung.damping / (2 * mass);
     if (sprung.stiffness == 0) return;
     moving_.decay = decay_, moving_.square = sprung.stiffness / mass, moving_.velocity = velocity_;
     middle_ = sprung.rest + pull_ / moving_.square, moving_.start = -middle_;
@@ -93,8 +94,8 @@ class Sliding final : public BodyMotion {
 
 std::unique_ptr<Truth> make_slider(const Scene& scene, double duration) {
   check_needs(scene, "slider", "one body on a slider",
-              {joint_feature<SliderJoint>(), Feature::joint_spring, Feature::joint_damper, Feature::joints_with_dampers,
-               Feature::spring});
+              {joint_feature<SliderJoint>(), Feature::armature, Feature::joint_spring, Feature::joint_damper,
+               Feature::joints_with_dampers, Feature::spring});
   if (scene.joints.size() != 1) refuse_slider(fmt::format("there are {} joints", scene.joints.size()));
   const Joint& joint = scene.joints[0];
   if (stands(scene, joint.a) == stands(scene, joint.b))
@@ -111,7 +112,7 @@ std::unique_ptr<Truth> make_slider(const Scene& scene, double duration) {
   if (body.angular_velocity.norm() > kSliderRoundings) refuse_slider("it turns");
   return closed_form(scene, [&](const Body& one) {
     return std::make_unique<Sliding>(one, sprung_by(scene, joint, index, rail), rail, extended(scene.gravity),
-                                     duration);
+                                     joint.armature, duration);
   });
 }
 

@@ -117,7 +117,7 @@ Swing round_axis(int body, const ExtendedVec3& axis, const ExtendedVec3& arm, bo
 }
 
 std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, const std::vector<Swing>& swings,
-                                bool spins, const Refuse& refuse) {
+                                bool spins, const Refuse& refuse, Extended rotor) {
   const Sums sums = sums_of(scene, axis, swings);
   if (std::abs(sums.along) + std::abs(sums.mixed) > kSwingingBodyRoundings * sums.inertia)
     refuse("its inertia about the angle changes as it turns");
@@ -125,7 +125,7 @@ std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, co
   const Extended misses = missed(scene, axis, swings, rate, spins, refuse);
   // It would rest at the angle atan2(Q, P) from where it begins.
   const Extended pull = std::hypot(sums.P, sums.Q);
-  const PendulumPhase phase(-std::atan2(sums.Q, sums.P), rate, pull / sums.inertia);
+  const PendulumPhase phase(-std::atan2(sums.Q, sums.P), rate, pull / (sums.inertia + rotor));
   return closed_form(scene, [&](const Body& body) -> std::unique_ptr<BodyMotion> {
     const int index = static_cast<int>(&body - scene.bodies.data());
     const auto swing = std::find_if(swings.begin(), swings.end(), [&](const Swing& s) { return s.body == index; });

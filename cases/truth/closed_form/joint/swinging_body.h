@@ -27,9 +27,9 @@ using Refuse = std::function<void(const std::string& why)>;  // throws
 
 // The truth in which these bodies, all that move, follow the angle about the unit `axis`. Refuses a body whose velocity
 // does not follow from the angle's rate, or whose inertia changes. With `spins` it may have any rotation where it does
-// not rotate with x.
+// not rotate with x. `rotor`: an inertia [kg m²] on the angle that is no body's.
 std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, const std::vector<Swing>& swings,
-                                bool spins, const Refuse& refuse);
+                                bool spins, const Refuse& refuse, Extended rotor = 0);
 
 // Where a joint's end that does not move has a point given in its frame; m, in W.
 ExtendedVec3 standing_point(const Scene& scene, int body, const Vec3& point);

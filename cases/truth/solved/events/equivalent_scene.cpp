@@ -23,6 +23,21 @@ struct MirrorJoint {
   void operator()(CylindricalJoint& joint) const {  // it has no limits, so that the sign of its axis is free
     joint.anchor = mirrored(joint.anchor), joint.axis = mirrored(joint.axis);
   }
+  void operator()(CompoundJoint& joint) const {
+    for (SeriesAxis& axis : joint.axes) mirror(axis);
+  }
+  void operator()(CompoundAxis& joint) const {
+    for (SeriesAxis& axis : joint.axes) mirror(axis);
+  }
+  void operator()(PlanarJoint& joint) const {
+    joint.anchor = mirrored(joint.anchor), joint.normal = mirrored(joint.normal);
+  }
+  void operator()(ScrewJoint& joint) const {
+    joint.anchor = mirrored(joint.anchor), joint.axis = mirrored(joint.axis), joint.pitch = -joint.pitch;
+  }
+  static void mirror(SeriesAxis& axis) {
+    axis.anchor = mirrored(axis.anchor), axis.axis = axis.turns ? mirrored_axial(axis.axis) : mirrored(axis.axis);
+  }
   void operator()(FixedJoint&) const {}
   void operator()(DistanceJoint& joint) const {
     joint.point_a = mirrored(joint.point_a), joint.point_b = mirrored(joint.point_b);
@@ -84,21 +99,34 @@ struct ScaleJoint {
   void operator()(FixedJoint&) const {}
   void operator()(DistanceJoint& joint) const { joint.point_a *= L, joint.point_b *= L; }
   void operator()(UniversalJoint& joint) const { joint.anchor *= L; }
+  void operator()(PlanarJoint& joint) const { joint.anchor *= L; }
+  void operator()(ScrewJoint& joint) const { joint.anchor *= L, joint.pitch *= L; }
+  void operator()(CompoundJoint& joint) const {
+    for (SeriesAxis& axis : joint.axes) axis.anchor *= L;
+  }
+  void operator()(CompoundAxis& joint) const {
+    for (SeriesAxis& axis : joint.axes) axis.anchor *= L;
+  }
 };
 
+bool slides(const Joint& joint) { return free_axis(joint) && !rigor::turns(joint); }
+
 // The unit of a joint's coordinate: 1 of an angle.
-double unit_of(const Joint& joint, double L) { return std::holds_alternative<SliderJoint>(joint.type) ? L : 1; }
+double unit_of(const Joint& joint, double L) { return slides(joint) ? L : 1; }
 
 void scale_joints(Scene& scene, double L, double T) {
   for (Joint& joint : scene.joints) {
     std::visit(ScaleJoint{L}, joint.type);
-    const double x = unit_of(joint, L), moment = std::holds_alternative<SliderJoint>(joint.type) ? 1 : L * L;
+    const double x = unit_of(joint, L), moment = slides(joint) ? 1 : L * L;
+    joint.armature *= moment;
     joint.stiffness *= moment / (T * T), joint.damping *= moment / T;
     joint.rest *= x, joint.lower *= x, joint.upper *= x;
   }
+  for (Coupling& coupling : scene.couplings)
+    coupling.ratio *= unit_of(scene.joints[coupling.joint], L) / unit_of(scene.joints[coupling.to], L);
   for (Motor& motor : scene.motors) {
     const Joint& joint = scene.joints[motor.joint];
-    const double x = unit_of(joint, L), effort = std::holds_alternative<SliderJoint>(joint.type) ? L : L * L;
+    const double x = unit_of(joint, L), effort = slides(joint) ? L : L * L;
     motor.effort *= effort / (T * T), motor.most *= effort / (T * T);
     if (motor.speed) *motor.speed *= x / T;
     motor.from *= T, motor.until *= T;

@@ -64,21 +64,53 @@ Json row_of(const Spring& spring, const Scene& scene) {
           {"rest_length", spring.rest_length}};
 }
 
-Json row_of(const Joint& joint, const Scene& scene) {
-  Json row = {{"type", joint_type_name(joint)}};
-  if (!joint.name.empty()) row["name"] = joint.name;
-  row["a"] = scene.body_name(joint.a), row["b"] = scene.body_name(joint.b);
-  for_each_vector(joint.type, [&](const char* key, JointVector, const Vec3& vector) { row[key] = list(vector); });
-  if (!free_axis(joint)) return row;
+// What acts on the free coordinate of a joint.
+void add_coordinate(const Joint& joint, const Scene& scene, Json& row) {
   row["stiffness"] = joint.stiffness, row["damping"] = joint.damping;
   for (const Motor& motor : scene.motors) {
     if (motor.is_friction && &scene.joints[static_cast<std::size_t>(motor.joint)] == &joint)
       row["friction"] = motor.most;
   }
+  if (joint.armature > 0) row["armature"] = joint.armature;
   if (joint.stiffness > 0) row["rest"] = joint.rest;
   add_unless_infinite(row, "lower", joint.lower);
   add_unless_infinite(row, "upper", joint.upper);
   if (joint.has_limits()) row["restitution"] = joint.restitution;
+}
+
+// The axes stand in the scene's joints behind the compound joint.
+Json rows_of_axes(const CompoundJoint& compound, const Joint* first, const Scene& scene) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < compound.axes.size(); ++i) {
+    Json row = {{"type", compound.axes[i].turns ? "hinge" : "slider"}};
+    if (!first[i].name.empty()) row["name"] = first[i].name;
+    visit_series_axis(compound.axes[i],
+                      [&](const char* key, JointVector, const Vec3& vector) { row[key] = list(vector); });
+    add_coordinate(first[i], scene, row);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json row_of(const Joint& joint, const Scene& scene) {
+  Json row = {{"type", joint_type_name(joint)}};
+  if (!joint.name.empty()) row["name"] = joint.name;
+  row["a"] = scene.body_name(joint.a), row["b"] = scene.body_name(joint.b);
+  if (const auto* compound = std::get_if<CompoundJoint>(&joint.type)) {
+    row["axes"] = rows_of_axes(*compound, &joint + 1, scene);
+    return row;
+  }
+  for_each_vector(joint.type, [&](const char* key, JointVector, const Vec3& vector) { row[key] = list(vector); });
+  for_each_number(joint.type, [&](const char* key, double number) { row[key] = number; });
+  if (free_axis(joint)) add_coordinate(joint, scene, row);
+  return row;
+}
+
+Json row_of(const Coupling& coupling, const Scene& scene) {
+  Json row = {{"joint", scene.joints[static_cast<std::size_t>(coupling.joint)].name},
+              {"to", scene.joints[static_cast<std::size_t>(coupling.to)].name},
+              {"ratio", coupling.ratio}};
+  if (coupling.offset != 0) row["offset"] = coupling.offset;
   return row;
 }
 
@@ -153,7 +185,9 @@ Json tree_of(const Scene& scene) {
   Json tree = {{"gravity", list(scene.gravity)}, {"contact_default", row_of(scene.contact_default)}};
   for (const Body& body : scene.bodies) tree["body"].push_back(row_of(body));
   add_rows(tree, "spring", scene.springs, scene);
-  add_rows(tree, "joint", scene.joints, scene);
+  for (const Joint& joint : scene.joints)
+    if (!is_axis_of_compound(joint)) tree["joint"].push_back(row_of(joint, scene));
+  add_rows(tree, "coupling", scene.couplings, scene);
   for (const Motor& motor : scene.motors) {
     if (!motor.is_friction) tree["motor"].push_back(row_of(motor, scene));  // friction is its joint's
   }

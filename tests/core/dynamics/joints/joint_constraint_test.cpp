@@ -13,6 +13,7 @@ const std::vector<decltype(Joint::type)> kTypes = {
     BallJoint{{0.3, -0.2, 0.5}},
     CylindricalJoint{{0.3, -0.2, 0.5}, Vec3(1, 2, -2).normalized()},
     HingeJoint{{0.3, -0.2, 0.5}, Vec3(1, 2, -2).normalized()},
+    PlanarJoint{{0.3, -0.2, 0.5}, Vec3(1, 2, -2).normalized()},
     SliderJoint{Vec3(2, -1, 2).normalized()},
     FixedJoint{},
     DistanceJoint{{0.1, 0.2, -0.3}, {0.4, 0, 0.1}},

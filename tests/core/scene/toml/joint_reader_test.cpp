@@ -28,7 +28,46 @@ const std::string kCylinder =
 const std::string kMotor = kHinge + "axis = [0, 0, 1]\n[[scene.motor]]\n";
 const std::string kChain = "[[scene.array]]\nbody = 'link'\ncount = [3, 1, 2]\nspacing = 2\n";
 
+// Lines 7 to 20: at rest, one axis twice.
+const std::string kTwice =
+    "[[scene.joint]]\nname = 'one'\ntype = 'hinge'\na = 'world'\nb = 'link'\nanchor = [0, 0, 0]\naxis = [0, 0, 1]\n"
+    "[[scene.joint]]\nname = 'other'\ntype = 'hinge'\na = 'post'\nb = 'link'\nanchor = [0, 0, 0]\naxis = [0, 0, 1]\n";
+// Lines 7 to 19: a hinge that turns at 2 rad/s, and a slider at rest.
+const std::string kGeared =
+    kHinge +
+    "axis = [0, 0, 1]\n[[scene.joint]]\nname = 'ankle'\ntype = 'slider'\na = 'world'\nb = 'link'\naxis = [1, 0, 0]\n";
+const std::string kAxis = "{ type = 'hinge', anchor = [0, 0, 0], axis = [0, 0, 1] }";
+
 const std::vector<Refusal> kBadJoints = {
+    {kHinge + "axis = [0, 0, 1]\narmature = -1", "14:12: scene.joint.armature: ", {"found -1"}},
+    {kGeared + "[[scene.coupling]]\njoint = 'ankl'\nto = 'knee'\nratio = 2",
+     "21:9: scene.coupling.joint: ",
+     {"no joint 'ankl'", "'ankle'"}},
+    {kGeared + "[[scene.coupling]]\njoint = 'ankle'\nto = 'knee'\nratio = 0",
+     "23:9: scene.coupling.ratio: ",
+     {"found 0"}},
+    {kGeared + "[[scene.coupling]]\njoint = 'ankle'\nto = 'ankle'\nratio = 1",
+     "22:6: scene.coupling.to: ",
+     {"the same joint"}},
+    {kGeared + "[[scene.coupling]]\njoint = 'ankle'\nto = 'knee'\nratio = 2\noffset = 0.1",
+     "24:10: scene.coupling.offset: ",
+     {"0 at t = 0", "violates"}},
+    {kGeared + "[[scene.coupling]]\njoint = 'ankle'\nto = 'knee'\nratio = 2",
+     "20:1: scene.coupling: ",
+     {"initial velocities break it", "rigor settle"}},
+    {kTwice + "[[scene.coupling]]\njoint = 'one'\nto = 'other'\nratio = 1\n[[scene.coupling]]\njoint = 'other'\nto = "
+              "'one'\nratio = 1",
+     "27:6: scene.coupling.to: ",
+     {"coupled already", "circle"}},
+    {kCylinder + "[[scene.coupling]]\njoint = 'sleeve'\nto = 'sleeve'\nratio = 1",
+     "15:9: scene.coupling.joint: ",
+     {"a cylindrical joint", "no coordinate of its own"}},
+    {"[[scene.joint]]\ntype = 'compound'\na = 'world'\nb = 'link'\naxes = [" + kAxis + ", " + kAxis + "]",
+     "11:8: scene.joint.axes: ",
+     {"hinges 1 and 2", "same axis"}},
+    {"[[scene.joint]]\ntype = 'screw'\na = 'world'\nb = 'link'\nanchor = [0, 0, 0]\naxis = [0, 0, 1]\npitch = 0",
+     "13:9: scene.joint.pitch: ",
+     {"found 0", "m per turn"}},
     {kHinge + "axis = [0, 1, 0]", "7:1: scene.joint: ", {"break it by 0 m/s and 2 rad/s", "rigor settle"}},
     {"[[scene.joint]]\ntype = 'hinge'\na = 'world'\nb = 'rod'\nanchor = [1, 0, 0]\naxis = [0, 0, 1]",
      "7:1: scene.joint: ",

@@ -11,15 +11,20 @@ export function jointsOf(scene) {
       b = index.get(joint.b) ?? -1,
       [bodyA, bodyB] = [a, b].map((i) => (i < 0 ? world : scene.bodies[i]));
     if (joint.type === "distance") return { a, b, pointA: joint.point_a, pointB: joint.point_b, axes: [], isRod: true };
-    const anchor = joint.anchor ?? bodyB.position,
-      axes = [joint.axis && [a, turned(bodyA, joint.axis)], joint.axis2 && [b, turned(bodyB, joint.axis2)]];
+    const series = joint.axes ?? [],
+      anchor = joint.anchor ?? series.find((one) => one.anchor)?.anchor ?? bodyB.position,
+      axis = joint.axis ?? joint.normal,
+      axes = [axis && [a, turned(bodyA, axis)], joint.axis2 && [b, turned(bodyB, joint.axis2)]].concat(
+        series.map((one) => [a, turned(bodyA, one.axis)]),
+      );
     return {
       a,
       b,
       pointA: within(bodyA, anchor),
       pointB: within(bodyB, anchor),
       axes: axes.filter(Boolean),
-      slides: ["cylindrical", "slider"].includes(joint.type),
+      slides: ["cylindrical", "screw", "slider"].includes(joint.type),
+      isLoose: ["compound", "planar"].includes(joint.type), // its points move apart in more ways than one
     };
   });
 }
@@ -53,7 +58,7 @@ export function jointSegments(joints, poses, size, seen) {
     const between = q.map((v, k) => v - p[k]);
     const along = joint.slides ? axes[0].reduce((sum, v, k) => sum + v * between[k], 0) : 0;
     const from = joint.slides ? add(p, axes[0], along) : p; // motion along a free axis is no gap
-    if (!joint.isRod && Math.hypot(...q.map((v, k) => v - from[k])) > seen) gaps.push([from, q]);
+    if (!joint.isRod && !joint.isLoose && Math.hypot(...q.map((v, k) => v - from[k])) > seen) gaps.push([from, q]);
   }
   return { marks, gaps };
 }

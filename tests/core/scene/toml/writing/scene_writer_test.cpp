@@ -24,6 +24,7 @@ class Fields {
       add(s.stiffness), add(s.damping), add(s.rest_length);
     }
     for (const Joint& joint : scene.joints) add(joint);
+    for (const Coupling& c : scene.couplings) add("coupling"), add(c.joint), add(c.to), add(c.ratio), add(c.offset);
     for (const Motor& m : scene.motors) {
       add("motor"), add(m.joint), add(m.effort), add(m.speed.has_value()), add(m.speed.value_or(0));
       add(m.most), add(m.from), add(m.until);
@@ -67,12 +68,20 @@ class Fields {
                   [&](const Plane& s) { add(s.normal), add(s.offset); }, [&](const Sphere& s) { add(s.radius); }},
         shape);
   }
+  void add(const std::vector<SeriesAxis>& axes) {
+    for (const SeriesAxis& axis : axes) add(axis.turns), add(axis.anchor), add(axis.axis);
+  }
   void add(const Joint& joint) {
     add(joint_type_name(joint)), add(joint.name), add(joint.a), add(joint.b);
     add(joint.stiffness), add(joint.damping), add(joint.rest);
-    add(joint.lower), add(joint.upper), add(joint.restitution);
+    add(joint.lower), add(joint.upper), add(joint.restitution), add(joint.armature);
     if (const auto* ball = std::get_if<BallJoint>(&joint.type)) add(ball->anchor);
     if (const auto* cylinder = std::get_if<CylindricalJoint>(&joint.type)) add(cylinder->anchor), add(cylinder->axis);
+    if (const auto* plane = std::get_if<PlanarJoint>(&joint.type)) add(plane->anchor), add(plane->normal);
+    if (const auto* screw = std::get_if<ScrewJoint>(&joint.type))
+      add(screw->anchor), add(screw->axis), add(screw->pitch);
+    if (const auto* compound = std::get_if<CompoundJoint>(&joint.type)) add(compound->axes);
+    if (const auto* axis = std::get_if<CompoundAxis>(&joint.type)) add(axis->axes), add(static_cast<int>(axis->index));
     if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) add(hinge->anchor), add(hinge->axis);
     if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) add(slider->axis);
     if (const auto* rod = std::get_if<DistanceJoint>(&joint.type)) add(rod->point_a), add(rod->point_b);
@@ -169,6 +178,32 @@ point_b = [0.1, 0, 0]
 type = "fixed"
 a = "ball"
 b = "world"
+[[scene.joint]]
+type = "planar"
+a = "world"
+b = "rod"
+anchor = [0.1, 0, 0.2]
+normal = [0.3, 0.4, 0.1]
+[[scene.joint]]
+type = "screw"
+a = "world"
+b = "rod"
+anchor = [0.1, 0, 0.2]
+axis = [0.3, 0.4, 0.1]
+pitch = -0.3
+[[scene.joint]]
+type = "compound"
+name = "hip"
+a = "post"
+b = "rod"
+axes = [
+  { type = "slider", name = "hip x", axis = [0.3, 0.4, 0.1], stiffness = 3, rest = 0.2, armature = 0.7 },
+  { type = "hinge", anchor = [0.1, 0, 0.2], axis = [0.1, 0.4, 0.1], lower = -0.3, friction = 0.1 },
+]
+[[scene.coupling]]
+joint = "drawer"
+to = "door"
+ratio = -0.05
 [[scene.motor]]
 joint = "door"
 speed = 0.3

@@ -1,0 +1,35 @@
+#include "core/dynamics/model/coupled_coordinates.h"
+
+namespace rigor {
+
+CoupledCoordinates::CoupledCoordinates(const Scene& scene, const Coupling& coupling)
+    : x_(scene, scene.joints[static_cast<std::size_t>(coupling.joint)]),
+      y_(scene, scene.joints[static_cast<std::size_t>(coupling.to)]),
+      ratio_(coupling.ratio),
+      offset_(coupling.offset),
+      place_{end(x_.a()), end(x_.b()), end(y_.a()), end(y_.b())} {}
+
+int CoupledCoordinates::end(int body) {
+  for (int k = 0; k < count_; ++k)
+    if (ends_[static_cast<std::size_t>(k)] == body) return k;
+  ends_[static_cast<std::size_t>(count_)] = body;
+  return count_++;
+}
+
+CoupledCoordinates::Row CoupledCoordinates::at(BodyColumns state) {
+  const JointCoordinate::Value x = x_.at(state), y = y_.at(state);
+  last_x_ = x_.with_turns(x.x, last_x_), last_y_ = y_.with_turns(y.x, last_y_);
+  Row row;
+  row.force.fill(Vec3::Zero()), row.torque.fill(Vec3::Zero());
+  row.gap = last_x_ - ratio_ * last_y_ - offset_;
+  row.bias = x.bias - ratio_ * y.bias;
+  const auto add = [&](int place, double factor, const Vec3& force, const Vec3& torque) {
+    const auto end = static_cast<std::size_t>(place_[place]);
+    row.force[end] += factor * force, row.torque[end] += factor * torque;
+  };
+  add(0, 1, -x.force, x.torque_a), add(1, 1, x.force, x.torque_b);
+  add(2, -ratio_, -y.force, y.torque_a), add(3, -ratio_, y.force, y.torque_b);
+  return row;
+}
+
+}  // namespace rigor
