@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/scene/axis_series.h"
+#include "core/scene/joints/axis_series.h"
 
 namespace rigor {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/axis_series.h"
+#include "core/scene/joints/axis_series.h"
 
 namespace rigor {
 namespace {

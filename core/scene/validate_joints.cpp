@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/scene/axis_series.h"
+#include "core/scene/joints/axis_series.h"
 #include "core/scene/validate.h"
 
 namespace rigor {

@@ -33,6 +33,8 @@ const std::map<std::string, ShownBy>& shown_by() {
       {"a hinge's anchor off by 1 mm", {"joints/chrono-revolute", kPlace + "|" + kTurn}},
       {"a hinge's axis off by 1 mrad", {"joints/chrono-revolute", kPlace + "|" + kTurn}},
       {"a hinge taken for a ball", {"joints/chrono-revolute", kPlace + "|" + kTurn}},
+      {"an armature left out", {"transmissions/armature-hinge", kTurn}},
+      {"a coupling's ratio inverted", {"transmissions/rack-and-pinion", kPlace}},
       {"a joint left out", {"joints/chrono-revolute", kPlace + "|" + kTurn}},
       {"spring stiffness off by 0.1 %", {"springs/oscillator", kPlace}},
       {"spring counted twice", {"springs/oscillator", kPlace}},

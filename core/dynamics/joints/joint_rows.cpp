@@ -141,8 +141,10 @@ void JointRows::evaluate(BodyColumns state) {
 
 void JointRows::evaluate_coupling(JointRow& joint, BodyColumns state) {
   const CoupledCoordinates::Row row = joint.coupling->at(state);
-  for (int end = 0; end < joint.ends; ++end)
-    std::copy_n(row.on_body[static_cast<std::size_t>(end)].data(), 6, joint.J[end]);  // one row
+  for (int end = 0; end < joint.ends; ++end) {  // one row
+    const auto at = static_cast<std::size_t>(end);
+    std::copy_n(row.force[at].data(), 3, joint.J[end]), std::copy_n(row.torque[at].data(), 3, joint.J[end] + 3);
+  }
   joint.gap[0] = row.gap, joint.bias[0] = row.bias;
 }
 

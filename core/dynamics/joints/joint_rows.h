@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/dynamics/joints/block_cholesky.h"
-#include "core/dynamics/joints/coupled_coordinates.h"
 #include "core/dynamics/joints/joint_constraint.h"
+#include "core/dynamics/model/coupled_coordinates.h"
 #include "core/dynamics/model/joint_coordinate.h"
 #include "core/dynamics/model/system.h"
 #include "core/engine/columns.h"

@@ -1,7 +1,7 @@
-// A compound joint: the motions that its axes in series lock (core/scene/axis_series.h); and an axis of one, which
+// A compound joint: the motions that its axes in series lock (core/scene/joints/axis_series.h); and an axis of one, which
 // locks none by itself.
 #include "core/dynamics/joints/joint_constraint.h"
-#include "core/scene/axis_series.h"
+#include "core/scene/joints/axis_series.h"
 
 namespace rigor {
 namespace {

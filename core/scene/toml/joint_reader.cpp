@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "core/base/near_match.h"
-#include "core/scene/axis_series.h"
 #include "core/scene/joint_rates.h"
+#include "core/scene/joints/axis_series.h"
 #include "core/scene/toml/time_table_reader.h"
 
 namespace rigor {

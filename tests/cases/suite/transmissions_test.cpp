@@ -77,8 +77,8 @@ BOOST_AUTO_TEST_CASE(every_method_keeps_its_order_on_a_moving_base) {
     BOOST_TEST(truth->error(1) < 1e-10);
     for (const Integrator& row : integrators()) {
       if (!row.takes_joints || row.adaptive) continue;
-      const double coarse = error_of(scene, *truth, row.name, 0.01, 1),
-                   fine = error_of(scene, *truth, row.name, 0.005, 1);
+      const double coarse = error_of(scene, *truth, row.name, 0.0025, 1),
+                   fine = error_of(scene, *truth, row.name, 0.00125, 1);
       constexpr double kRounding = 1e-9;
       BOOST_TEST_CONTEXT(id << " by " << row.name << ": " << coarse << " and " << fine)
       BOOST_TEST((fine < kRounding || std::log2(coarse / fine) > row.order - 0.3));

@@ -5,7 +5,7 @@
 #include <optional>
 #include "core/engine/body_table.h"
 
-#include "core/scene/axis_series.h"
+#include "core/scene/joints/axis_series.h"
 #include "core/scene/scene.h"
 
 namespace rigor {

@@ -1,6 +1,6 @@
 // The coordinates and rows of axes in series against a chain of transforms that is put together here, and against its
 // differences in time.
-#include "core/scene/axis_series.h"
+#include "core/scene/joints/axis_series.h"
 
 #include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
@@ -95,7 +95,7 @@ Chain chain_of(const std::vector<SeriesAxis>& axes) { return {axes, {0.7, -0.4, 
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_scene_axis_series)
+BOOST_AUTO_TEST_SUITE(core_scene_joints_axis_series)
 
 BOOST_AUTO_TEST_CASE(coordinates_of_a_chain_are_those_that_made_it_and_nothing_is_open) {
   for (const auto& axes : chains()) {

@@ -45,8 +45,11 @@ class AxisSeries {
   int locked() const { return 6 - static_cast<int>(axes_.size()); }
 
  private:
-  struct Place;  // of an axis now
+  struct Chain;
   void find_angles(const Mat3& turn, std::array<double, kMostSeriesAxes>& x, double& sine) const;
+  Chain chain_at(const SeriesEnd& a, const SeriesEnd& b, double& sine) const;
+  void add_rows(const Chain& chain, const SeriesEnd& b, Rows& out) const;
+  void add_rates(const Chain& chain, const SeriesEnd& a, const SeriesEnd& b, Rows& out) const;
 
   std::vector<SeriesAxis> axes_;      // in a's frame, as at t = 0
   std::vector<std::size_t> hinges_;   // of the axes

@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "core/dynamics/joints/constraint_rows.h"
 #include "core/dynamics/model/joint_coordinate.h"
 
 namespace rigor {
@@ -14,7 +13,7 @@ class CoupledCoordinates {
   CoupledCoordinates(const Scene& scene, const Coupling& coupling);
 
   struct Row {
-    std::array<Vec6, 4> on_body;  // by end()
+    std::array<Vec3, 4> force, torque;  // of a unit of effort on each of ends(), in W
     double gap, bias;
   };
   Row at(BodyColumns state);

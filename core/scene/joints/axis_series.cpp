@@ -1,4 +1,4 @@
-#include "core/scene/axis_series.h"
+#include "core/scene/joints/axis_series.h"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,9 @@
 #include <cmath>
 
 namespace rigor {
-namespace {
 
 // Up to three directions, and the rows of their pseudo-inverse.
-struct Directions {
+struct SeriesDirections {
   std::array<Vec3, 3> of, inverse;
   int count = 0;
 
@@ -25,6 +24,8 @@ struct Directions {
   }
 };
 
+namespace {
+
 // How far `from` turns about the unit axis to lie as `to` does.
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
   return std::atan2(axis.dot(from.cross(to)), from.dot(to) - axis.dot(from) * axis.dot(to));
@@ -32,7 +33,7 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
 
 Mat3 turned_about(const Vec3& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
 
-// Twice the sine of a small rotation, as a vector.
+// The sine of a rotation about its axis, as a vector.
 Vec3 sines_of(const Mat3& turn) {
   return 0.5 * Vec3(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
 }
@@ -43,7 +44,7 @@ std::array<Vec3, 2> two_across(const Vec3& axis) {
 }
 
 // Those across all of the directions; `first`: the two across a single one.
-int across_all(const Directions& directions, const std::array<Vec3, 2>& first, std::array<Vec3, 3>& out) {
+int across_all(const SeriesDirections& directions, const std::array<Vec3, 2>& first, std::array<Vec3, 3>& out) {
   if (directions.count == 0) {
     for (int k = 0; k < 3; ++k) out[static_cast<std::size_t>(k)] = Vec3::Unit(k);
     return 3;
@@ -97,97 +98,121 @@ void AxisSeries::find_angles(const Mat3& turn, std::array<double, kMostSeriesAxe
   }
 }
 
-struct AxisSeries::Place {
-  Vec3 direction, anchor;  // in W
-};
-
-AxisSeries::Rows AxisSeries::at(const SeriesEnd& a, const SeriesEnd& b) const {
-  Rows out;
+// The axes at a pose, in W, with their hinges turned and their sliders moved.
+struct AxisSeries::Chain {
+  struct Place {
+    Vec3 direction, anchor;
+  };
   std::array<double, kMostSeriesAxes> x{};
-  find_angles(a.R.transpose() * b.R * turn_start_.transpose(), x, out.sine);
-
-  // The chain with its hinges turned and its sliders at 0, in a's frame; then the sliders.
   std::array<Place, kMostSeriesAxes> places;
-  std::array<Vec3, 2> across_hinge = across_hinge_, across_slider = across_slider_;
-  Mat3 C = Mat3::Identity();
-  Vec3 moved = Vec3::Zero();
-  Directions hinges, sliders;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const SeriesAxis& axis = axes_[i];
-    Place& place = places[i];
-    place = {a.R * (C * axis.axis), C * axis.anchor + moved};
-    Directions& kind = axis.turns ? hinges : sliders;
-    if (kind.count == 0)
-      for (Vec3& direction : axis.turns ? across_hinge : across_slider) direction = a.R * (C * direction);
-    kind.add(place.direction);
-    if (!axis.turns) continue;
-    const Mat3 turn = turned_about(C * axis.axis, x[i]);
-    moved = place.anchor + turn * (moved - place.anchor), C = turn * C;
-  }
-  hinges.invert(), sliders.invert();
-  const Vec3 line = b.position - a.position, beside = line - a.R * (C * centre_b_ + moved);
-  Vec3 slid = Vec3::Zero();
-  int slider = 0;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    places[i].anchor = a.position + a.R * places[i].anchor + slid;
-    if (axes_[i].turns) continue;
-    x[i] = sliders.inverse[static_cast<std::size_t>(slider++)].dot(beside);
-    slid += x[i] * places[i].direction;
-  }
-
-  // Rows without their biases.
+  SeriesDirections hinges, sliders;
+  std::array<Vec3, 2> across_hinge,
+      across_slider;          // the two across the first of a kind
   std::array<Vec3, 3> lever;  // h x r of each hinge
-  const Vec3 w = b.angular_velocity - a.angular_velocity, v = b.velocity - a.velocity - a.angular_velocity.cross(line);
-  const auto along = [&](const Vec3& force) {
+  Vec3 gap;                   // m: of b's centre, beside what the sliders can take
+  Mat3 R_b;                   // as the hinges turn it
+
+  // That of a force on b's centre, with the torques that keep the hinges out of
+  // it.
+  Row along(const Vec3& force) const {
     Row row;
     row.force = force;
     for (int n = 0; n < hinges.count; ++n)
       row.torque -= force.dot(lever[static_cast<std::size_t>(n)]) * hinges.inverse[static_cast<std::size_t>(n)];
     return row;
-  };
-  for (std::size_t n = 0; n < hinges_.size(); ++n) {
-    const Place& place = places[hinges_[n]];
-    lever[n] = place.direction.cross(b.position - place.anchor);
-    out.coordinates[hinges_[n]].torque = hinges.inverse[n];
   }
-  slider = 0;
-  for (std::size_t i = 0; i < axes_.size(); ++i)
-    if (!axes_[i].turns) out.coordinates[i] = along(sliders.inverse[static_cast<std::size_t>(slider++)]);
+};
+
+AxisSeries::Chain AxisSeries::chain_at(const SeriesEnd& a, const SeriesEnd& b, double& sine) const {
+  Chain chain;
+  chain.across_hinge = across_hinge_, chain.across_slider = across_slider_;
+  find_angles(a.R.transpose() * b.R * turn_start_.transpose(), chain.x, sine);
+  // First with the sliders at 0, in a's frame.
+  Mat3 C = Mat3::Identity();
+  Vec3 moved = Vec3::Zero();
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const SeriesAxis& axis = axes_[i];
+    chain.places[i] = {a.R * (C * axis.axis), C * axis.anchor + moved};
+    SeriesDirections& kind = axis.turns ? chain.hinges : chain.sliders;
+    if (kind.count == 0) {
+      for (Vec3& direction : axis.turns ? chain.across_hinge : chain.across_slider) direction = a.R * (C * direction);
+    }
+    kind.add(chain.places[i].direction);
+    if (!axis.turns) continue;
+    const Mat3 turn = turned_about(C * axis.axis, chain.x[i]);
+    moved = chain.places[i].anchor + turn * (moved - chain.places[i].anchor), C = turn * C;
+  }
+  chain.hinges.invert(), chain.sliders.invert();
+  const Vec3 beside = b.position - a.position - a.R * (C * centre_b_ + moved);
+  Vec3 slid = Vec3::Zero();
+  std::size_t slider = 0, hinge = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    Chain::Place& place = chain.places[i];
+    place.anchor = a.position + a.R * place.anchor + slid;
+    if (axes_[i].turns) {
+      chain.lever[hinge++] = place.direction.cross(b.position - place.anchor);
+    } else {
+      chain.x[i] = chain.sliders.inverse[slider++].dot(beside);
+      slid += chain.x[i] * place.direction;
+    }
+  }
+  chain.gap = beside - slid, chain.R_b = a.R * C * turn_start_;
+  return chain;
+}
+
+void AxisSeries::add_rows(const Chain& chain, const SeriesEnd& b, Rows& out) const {
+  std::size_t slider = 0, hinge = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    Row& row = out.coordinates[i];
+    if (axes_[i].turns)
+      row.torque = chain.hinges.inverse[hinge++];
+    else
+      row = chain.along(chain.sliders.inverse[slider++]);
+    row.gap = chain.x[i];
+  }
   std::array<Vec3, 3> locked;
-  const Vec3 sines = sines_of(b.R * (a.R * C * turn_start_).transpose());
-  const int turns = across_all(hinges, across_hinge, locked);
+  const Vec3 sines = sines_of(b.R * chain.R_b.transpose());
+  const int turns = across_all(chain.hinges, chain.across_hinge, locked);
   for (int k = 0; k < turns; ++k) {
     Row& row = out.locked[static_cast<std::size_t>(out.count++)];
     row.torque = locked[static_cast<std::size_t>(k)], row.gap = row.torque.dot(sines);
   }
-  const int shifts = across_all(sliders, across_slider, locked);
+  const int shifts = across_all(chain.sliders, chain.across_slider, locked);
   for (int k = 0; k < shifts; ++k) {
     Row& row = out.locked[static_cast<std::size_t>(out.count++)];
-    row = along(locked[static_cast<std::size_t>(k)]), row.gap = row.force.dot(beside - slid);
+    row = chain.along(locked[static_cast<std::size_t>(k)]), row.gap = row.force.dot(chain.gap);
   }
+}
 
-  // The acceleration of b while a's and those of the coordinates are zero.
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    Row& row = out.coordinates[i];
-    row.gap = x[i], row.rate = row.force.dot(v) + row.torque.dot(w);
-  }
+// The bias is what b accelerates by while a's accelerations and those of the
+// coordinates are zero.
+void AxisSeries::add_rates(const Chain& chain, const SeriesEnd& a, const SeriesEnd& b, Rows& out) const {
+  const Vec3 line = b.position - a.position, w = b.angular_velocity - a.angular_velocity,
+             v = b.velocity - a.velocity - a.angular_velocity.cross(line);
+  const auto set_rate = [&](Row& row) { row.rate = row.force.dot(v) + row.torque.dot(w); };
+  for (std::size_t i = 0; i < axes_.size(); ++i) set_rate(out.coordinates[i]);
+  for (int k = 0; k < out.count; ++k) set_rate(out.locked[static_cast<std::size_t>(k)]);
   Vec3 turning = a.angular_velocity, angular = Vec3::Zero(), linear = turning.cross(turning.cross(line));
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Vec3 rate = out.coordinates[i].rate * places[i].direction, change = turning.cross(rate);
+    const Vec3 rate = out.coordinates[i].rate * chain.places[i].direction, change = turning.cross(rate);
     if (!axes_[i].turns) {
       linear += 2 * change;
       continue;
     }
-    const Vec3 arm = b.position - places[i].anchor, after = turning + rate;
+    const Vec3 arm = b.position - chain.places[i].anchor, after = turning + rate;
     linear += change.cross(arm) + after.cross(after.cross(arm)) - turning.cross(turning.cross(arm));
     angular += change, turning = after;
   }
-  const auto finish = [&](Row& row) {
-    row.rate = row.force.dot(v) + row.torque.dot(w);
-    row.bias = -row.force.dot(linear) - row.torque.dot(angular);
-  };
-  for (std::size_t i = 0; i < axes_.size(); ++i) finish(out.coordinates[i]);
-  for (int k = 0; k < out.count; ++k) finish(out.locked[static_cast<std::size_t>(k)]);
+  const auto set_bias = [&](Row& row) { row.bias = -row.force.dot(linear) - row.torque.dot(angular); };
+  for (std::size_t i = 0; i < axes_.size(); ++i) set_bias(out.coordinates[i]);
+  for (int k = 0; k < out.count; ++k) set_bias(out.locked[static_cast<std::size_t>(k)]);
+}
+
+AxisSeries::Rows AxisSeries::at(const SeriesEnd& a, const SeriesEnd& b) const {
+  Rows out;
+  const Chain chain = chain_at(a, b, out.sine);
+  add_rows(chain, b, out);
+  add_rates(chain, a, b, out);
   return out;
 }
 
@@ -203,11 +228,15 @@ std::string why_no_series(const std::vector<SeriesAxis>& axes) {
     for (std::size_t i = 0; i < directions.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j)
         if (directions[i].cross(directions[j]).norm() < kParallel)
-          return fmt::format("the {} {} and {} have the same axis; allowed: each direction once", kind, j + 1, i + 1);
+          return fmt::format(
+              "the {} {} and {} have the same axis; allowed: "
+              "each direction once",
+              kind, j + 1, i + 1);
     }
     if (directions.size() == 3 && std::abs(directions[0].dot(directions[1].cross(directions[2]))) < kParallel)
       return fmt::format(
-          "the axes of its three {} lie in one plane, so one repeats the others; allowed: independent "
+          "the axes of its three {} lie in one plane, so one "
+          "repeats the others; allowed: independent "
           "directions",
           kind);
   }

@@ -1,4 +1,4 @@
-#include "core/dynamics/joints/coupled_coordinates.h"
+#include "core/dynamics/model/coupled_coordinates.h"
 
 namespace rigor {
 
@@ -20,11 +20,12 @@ CoupledCoordinates::Row CoupledCoordinates::at(BodyColumns state) {
   const JointCoordinate::Value x = x_.at(state), y = y_.at(state);
   last_x_ = x_.with_turns(x.x, last_x_), last_y_ = y_.with_turns(y.x, last_y_);
   Row row;
-  row.on_body.fill(Vec6::Zero());
+  row.force.fill(Vec3::Zero()), row.torque.fill(Vec3::Zero());
   row.gap = last_x_ - ratio_ * last_y_ - offset_;
   row.bias = x.bias - ratio_ * y.bias;
   const auto add = [&](int place, double factor, const Vec3& force, const Vec3& torque) {
-    row.on_body[static_cast<std::size_t>(place_[place])] += factor * joined(force, torque);
+    const auto end = static_cast<std::size_t>(place_[place]);
+    row.force[end] += factor * force, row.torque[end] += factor * torque;
   };
   add(0, 1, -x.force, x.torque_a), add(1, 1, x.force, x.torque_b);
   add(2, -ratio_, -y.force, y.torque_a), add(3, -ratio_, y.force, y.torque_b);
