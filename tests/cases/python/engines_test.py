@@ -148,7 +148,7 @@ def faulty_cells(request, tmp_path_factory):
     for number, fault in enumerate(FAULTS.values()):
         engines.append(broken(fault.method, fault.body))
         engines[-1].name = f"fault-{number}"
-    results = rigor.gate(case, engines=engines, dt="1/50", in_process=request.param, timeout=5, progress=False)
+    results = rigor.gate(case, engines=engines, dt="1/50", in_process=request.param, timeout=20, progress=False)
     assert not results.passed
     return {cell.engine: cell for cell in results.cells}
 
