@@ -25,6 +25,7 @@ std::optional<SceneFault> fault_of(const Joint& joint, const Scene& scene);  // 
 std::optional<SceneFault> fault_of(const Motor& motor, const Scene& scene);
 std::optional<SceneFault> fault_of(const ContactLaw& law);
 std::optional<SceneFault> fault_of(const ContactPair& pair, const Scene& scene);
+std::optional<SceneFault> fault_of_default(const Scene& scene);  // of contact_default
 std::optional<SceneFault> fault_of(const TimedForce& force, const Scene& scene);
 
 // What is wrong with an inertia; empty if it is one that matter can have: each principal moment is positive, and none
