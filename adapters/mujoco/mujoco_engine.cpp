@@ -67,6 +67,8 @@ EngineInfo MujocoEngine::info() const {
                                                Feature::fixed_body,
                                                Feature::friction_none,
                                                Feature::friction_coulomb,
+                                               Feature::rolling_friction,
+                                               Feature::torsional_friction,
                                                joint_feature<BallJoint>(),
                                                joint_feature<CompoundJoint>(),
                                                joint_feature<CylindricalJoint>(),

@@ -66,6 +66,9 @@ class Exporter {
       if (pair.law.collides) leave_out(of_pair(pair), "has a friction of its own; that of the rest is written");
     }
     if (scene_.contact_default.restitution > 0) leave_out("restitution", "MuJoCo has none");
+    if (scene_.contact_default.resists_turning())
+      leave_out("rolling and torsional friction", "MuJoCo combines them with the sliding friction in one cone");
+    if (scene_.contact_default.is_soft()) leave_out("stiffness of contacts", "MuJoCo's is per mass");
     for (const TimedForce& force : scene_.forces)
       leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "MuJoCo's files have no timed forces");
     return std::move(out_);

@@ -20,10 +20,31 @@ std::string name_of(int body) { return fmt::format("b{}", body); }
 
 // MuJoCo's numbers of friction: sliding along two axes, spinning, rolling twice. Contacts of three rows look at the
 // first two alone; without friction one row is enough, for a coefficient of zero would be raised.
+// MuJoCo raises each coefficient of a contact to this value. condim 4 adds torsional friction, and condim 6 both
+// others.
+constexpr double kLeastFriction = 1e-5;
+
+void refuse_friction(const ContactLaw& law) {
+  const double least =
+      std::min(law.friction, law.rolling_friction > 0 ? std::min(law.rolling_friction, law.torsional_friction)
+                                                      : law.torsional_friction);
+  if (!law.resists_turning() || least >= kLeastFriction) return;
+  throw EngineFailure(
+      FailureKind::unsupported,
+      fmt::format("MuJoCo's {} friction comes with {} of at least {:g} each",
+                  law.rolling_friction > 0 ? "rolling" : "torsional",
+                  law.rolling_friction > 0 ? "torsional and sliding friction" : "sliding friction", kLeastFriction));
+}
+
 std::string friction_of(const ContactLaw& law, bool of_a_pair) {
+  refuse_friction(law);
   if (law.friction == 0) return R"(condim="1")";
-  return of_a_pair ? fmt::format(R"(condim="3" friction="{0} {0} 0.005 0.0001 0.0001")", law.friction)
-                   : fmt::format(R"(condim="3" friction="{} 0.005 0.0001")", law.friction);
+  const int dimensions = law.rolling_friction > 0 ? 6 : law.torsional_friction > 0 ? 4 : 3;
+  // Coefficients that the dimensions leave out have no effect.
+  const double spin = dimensions > 3 ? law.torsional_friction : 0.005,
+               roll = dimensions > 4 ? law.rolling_friction : 1e-4;
+  return of_a_pair ? fmt::format(R"(condim="{0}" friction="{1} {1} {2} {3} {3}")", dimensions, law.friction, spin, roll)
+                   : fmt::format(R"(condim="{}" friction="{} {} {}")", dimensions, law.friction, spin, roll);
 }
 
 struct GeomOf {
@@ -101,7 +122,7 @@ class Writer {
       if (body.collides) for_each_part(*body.shape, [&](const Shape&, const BodyPose&) { ++shapes; });
     }
     const std::size_t contacts = std::max<std::size_t>(100, 12 * shapes);
-    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, 4 * contacts + 7 * scene_.joints.size());
+    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, 6 * contacts + 7 * scene_.joints.size());
   }
 
   void write_meshes() {

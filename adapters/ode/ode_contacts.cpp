@@ -8,8 +8,9 @@
 namespace rigor {
 namespace {
 
-constexpr int kMaxContacts = 16;   // of one pair; two boxes have at most eight
-constexpr double kSlowest = 1e-9;  // m/s: below it a sliding velocity is rounding and has no direction
+constexpr int kMaxContacts = 16;       // of one pair; two boxes have at most eight
+constexpr double kSlowest = 1e-9;      // m/s: below it a sliding velocity is rounding and has no direction
+constexpr double kRollingSlip = 1e-6;  // m/s: far above what the solver leaves of the slip of a body that rolls
 
 Vec3 contact_vector(const dReal* v) { return {v[0], v[1], v[2]}; }
 
@@ -17,6 +18,14 @@ Vec3 velocity_at(dBodyID body, const Vec3& point) {
   if (!body) return Vec3::Zero();
   const Vec3 arm = point - contact_vector(dBodyGetPosition(body));
   return contact_vector(dBodyGetLinearVel(body)) + contact_vector(dBodyGetAngularVel(body)).cross(arm);
+}
+
+// ODE's softness is a spring and damper, integrated by implicit Euler: its parameters depend on the step.
+void soften(const ContactLaw& law, double dt, dSurfaceParameters& surface) {
+  const double resists = dt * law.stiffness + law.damping;  // N s/m
+  surface.mode |= dContactSoftERP | dContactSoftCFM;
+  surface.soft_erp = dt * law.stiffness / resists;
+  surface.soft_cfm = 1 / resists;
 }
 
 dSurfaceParameters surface_of(const ContactLaw& law) {
@@ -30,14 +39,27 @@ dSurfaceParameters surface_of(const ContactLaw& law) {
     surface.bounce = law.restitution;
     surface.bounce_vel = 0;  // m/s: a threshold below which nothing would bounce
   }
+  if (law.resists_turning()) {
+    surface.mode |= dContactRolling | dContactAxisDep;  // the latter reads rho2, rhoN and mu2, too
+    surface.mu2 = surface.mu;
+    surface.rho = surface.rho2 = law.rolling_friction;
+    surface.rhoN = law.torsional_friction;
+  }
   return surface;
 }
 
+Vec3 angular_velocity_of(dBodyID body) { return body ? contact_vector(dBodyGetAngularVel(body)) : Vec3::Zero().eval(); }
+
 // ODE's friction is a pyramid. Its first axis along the sliding velocity makes it act as the cone does while sliding.
+// Rolling friction acts about the same axes: without sliding, the first is along the relative angular velocity.
 void align_friction(dContact& contact, dBodyID a, dBodyID b) {
   const Vec3 point = contact_vector(contact.geom.pos), normal = contact_vector(contact.geom.normal);
   const Vec3 relative = velocity_at(a, point) - velocity_at(b, point);
-  const Vec3 sliding = relative - normal.dot(relative) * normal;
+  Vec3 sliding = relative - normal.dot(relative) * normal;
+  if (contact.surface.rho > 0 && sliding.norm() < kRollingSlip) {
+    const Vec3 turning = angular_velocity_of(a) - angular_velocity_of(b);
+    sliding = turning - normal.dot(turning) * normal;
+  }
   const double speed = sliding.norm();
   if (speed < kSlowest) return;
   contact.surface.mode |= dContactFDir1;
@@ -63,11 +85,13 @@ void OdeWorld::add_contacts(dGeomID a, dGeomID b) {
   dContact found[kMaxContacts];
   const int count = dCollide(a, b, kMaxContacts, &found[0].geom, sizeof(dContact));
   if (count == 0) return;
-  dSurfaceParameters surface = surface_of(laws_.of(index_of(a), index_of(b)));
+  const ContactLaw& law = laws_.of(index_of(a), index_of(b));
+  dSurfaceParameters surface = surface_of(law);
   if (contact_erp_ != dWorldGetERP(world_)) {  // which is then the joints' alone
     surface.mode |= dContactSoftERP;
     surface.soft_erp = contact_erp_;
   }
+  if (law.is_soft()) soften(law, step_, surface);
   const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
   for (int i = 0; i < count; ++i) {
     found[i].surface = surface;

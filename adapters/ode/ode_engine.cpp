@@ -67,7 +67,8 @@ EngineInfo OdeEngine::info() const {
           .features = joined(joined(kOdeContacts, joints_of_all_kinds()),
                              {Feature::placed_shapes, Feature::contact_filter, Feature::spring, Feature::timed_force,
                               Feature::fixed_body, Feature::restitution, Feature::friction_none,
-                              Feature::friction_coulomb, Feature::friction_infinite}),
+                              Feature::friction_coulomb, Feature::friction_infinite, Feature::rolling_friction,
+                              Feature::soft_contact, Feature::torsional_friction}),
           .methods = {by_size(), worldstep(), quickstep()}};
 }
 

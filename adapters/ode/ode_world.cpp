@@ -10,6 +10,7 @@
 #include "adapters/ode/ode_library.h"
 #include "adapters/ode/ode_matched.h"
 #include "adapters/ode/ode_options.h"
+#include "core/engine/engine_failure.h"
 
 namespace rigor {
 namespace {
@@ -65,6 +66,18 @@ bool has_too_many_for_worldstep(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+// ODE multiplies the coefficients of all three axes by the normal force, or none; an infinite one must not be.
+void refuse_infinite_friction_that_rolls(const Scene& scene) {
+  const auto is_both = [](const ContactLaw& law) { return law.resists_turning() && law.friction == kInfiniteFriction; };
+  if (!any_law(scene, is_both)) return;
+  throw EngineFailure(FailureKind::unsupported,
+                      "ODE's rolling and torsional friction need a finite coefficient of friction beside them");
+}
+
+}  // namespace
+
 OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
     : laws_(scene),
       loads_(scene),
@@ -72,6 +85,7 @@ OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
       matched_(settings.track == Track::matched),
       by_size_(settings.method == "auto"),
       quick_(settings.method == "quickstep" || (by_size_ && has_too_many_for_worldstep(scene))) {
+  refuse_infinite_friction_that_rolls(scene);
   ode_library::start();
   world_ = dWorldCreate();
   moving_ = dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
@@ -176,6 +190,7 @@ void OdeWorld::set_cfm(double cfm) {
 void OdeWorld::advance(double dt) {
   if (softness_ > 0) set_cfm(softness_ * dt);
   joints_->drive(clock_.time() + 0.5 * dt);
+  step_ = dt;
   if (can_touch_) find_contacts();
   const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
   if (can_touch_) dJointGroupEmpty(contacts_);

@@ -64,6 +64,7 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts {
   ExternalLoads loads_;
   bool can_touch_;
   double contact_erp_ = 0;
+  double step_ = 0;            // s, of the step in progress
   double softness_ = 0;        // 1/kg: cfm/dt where it is set by the masses; 0 where cfm is as shipped or as asked for
   double softness_share_ = 0;  // of the heaviest body's 1/mass
   bool matched_, by_size_, quick_;

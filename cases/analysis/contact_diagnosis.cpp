@@ -56,6 +56,32 @@ std::optional<Diagnosis> friction_with_directions(const CaseResult& result, cons
                       anisotropy.values.back()->value, in_its_words(*anisotropy.cells.back(), "friction"));
 }
 
+// Recovery of an overlap within one step gives an impulse that does not depend on dt: the force goes with 1/dt.
+std::optional<Diagnosis> force_spikes(const CaseResult& result, const MetricOverSteps& peak) {
+  constexpr double kNotable = 2, kGrowth = 1.5;
+  if (peak.values.size() < 2) return std::nullopt;
+  std::size_t at = 0;
+  for (std::size_t i = 1; i < peak.values.size(); ++i)
+    if (peak.values[i]->value > peak.values[at]->value) at = i;
+  const double largest = peak.values[at]->value;
+  if (at == 0 || largest < kNotable || largest < kGrowth * peak.values.front()->value) return std::nullopt;
+  return diagnosis_of(kForceSpikes, result, peak, at, largest, how_it_corrects(*peak.cells[at]));
+}
+
+// At the finest step, where settling is least. A body that has settled was farthest from its place before the end.
+std::optional<Diagnosis> creeping(const CaseResult& result, const MetricOverSteps& creep) {
+  constexpr double kNotable = 1e-3, kAtEnd = 0.95;  // of the body's bounding radius; of the duration
+  if (creep.values.empty()) return std::nullopt;
+  const MetricValue& finest = *creep.values.back();
+  const auto& bodies = result.definition.scene.bodies;
+  if (finest.worst.body < 0 || finest.worst.time < kAtEnd * result.definition.duration) return std::nullopt;
+  const Body& body = bodies[static_cast<std::size_t>(finest.worst.body)];
+  if (!body.shape || finest.value < kNotable * bounding_radius(*body.shape)) return std::nullopt;
+  const std::string stiffness = in_its_words(*creep.cells.back(), "impratio");
+  return diagnosis_of(kCreeps, result, creep, creep.values.size() - 1, finest.value,
+                      stiffness.empty() ? how_it_corrects(*creep.cells.back()) : stiffness);
+}
+
 }  // namespace
 
 std::vector<Diagnosis> contact_diagnoses(const CaseResult& result) {
@@ -67,6 +93,10 @@ std::vector<Diagnosis> contact_diagnoses(const CaseResult& result) {
     if (impacts) all.push_back(std::move(*impacts));
     auto friction = friction_with_directions(result, metric_over_steps(result, run, "friction_anisotropy"));
     if (friction) all.push_back(std::move(*friction));
+    auto spikes = force_spikes(result, metric_over_steps(result, run, "force_peak"));
+    if (spikes) all.push_back(std::move(*spikes));
+    auto creep = creeping(result, metric_over_steps(result, run, "creep"));
+    if (creep) all.push_back(std::move(*creep));
   }
   return all;
 }

@@ -1,5 +1,5 @@
 // Finds errors of contacts: restitution that does not converge, overlap returned as speed, friction that depends on the
-// direction.
+// direction, forces that grow as the step shrinks, and bodies that creep.
 #pragma once
 
 #include "cases/analysis/diagnosis.h"
@@ -12,6 +12,10 @@ inline constexpr const char* kUnconverged = "restitution";
 inline constexpr const char* kOverlapGivenBack = "overlap";
 // Bodies that should all stop after the same distance do not. The value is the relative difference.
 inline constexpr const char* kFrictionDirections = "friction";
+// A contact force of bodies at rest that grows as dt shrinks. The value is the largest over the force at rest.
+inline constexpr const char* kForceSpikes = "force-spikes";
+// A body that should stand moves on to the end of the run. The value is its distance from its place [m].
+inline constexpr const char* kCreeps = "creep";
 
 // One run and one topic in each, sorted by run.
 std::vector<Diagnosis> contact_diagnoses(const CaseResult& result);

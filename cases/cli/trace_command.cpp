@@ -111,7 +111,9 @@ class TraceCommand : public Command {
     timeout_.declare(options);
     options.add({"--every", "N", "print only each N-th sample"},
                 [this](const std::string& text) { every_ = parse_count(text, "--every"); });
-    options.add_flag("--contacts", "print the contact forces of each step in place of the bodies", contacts_);
+    options.add_flag("--contacts",
+                     "print the contact forces of each step: in CSV in place of the bodies, else beside them",
+                     contacts_);
     options.add({"--format", "F", either_of(names_of(trace_formats())) + "; default: csv", names_of(trace_formats())},
                 format_);
   }
@@ -124,8 +126,6 @@ class TraceCommand : public Command {
     const std::vector<StepSize> steps = steps_.dt.empty() ? definition.dt : steps_.dt;
     if (steps.size() != 1) throw InputError("rigor trace: takes exactly one --dt; " + steps_of(definition));
     const TraceFormat& format = format_.empty() ? trace_formats().front() : find_trace_format(format_);
-    if (contacts_ && !format_.empty() && format_ != "csv")
-      throw InputError(fmt::format("rigor trace: --contacts prints CSV; --format {} has no contacts", format_));
     override_run(definition, {steps, duration_.seconds});
     const RunName run = run_of_option(engine_.engines.front(), engines.infos());
     const Engine& engine = engines.find(run.engine);
@@ -138,7 +138,7 @@ class TraceCommand : public Command {
             simulate(engine, run.settings, definition.scene, dt, definition.duration, {.has_contacts = contacts_});
         if (contacts_ && !done.trajectory.has_contacts)
           throw InputError(fmt::format("{}: unsupported: the engine does not report contact forces here", run.text));
-        const auto writer = contacts_ ? contacts_trace(definition.scene) : format.writer(definition.scene);
+        const auto writer = format.writer(definition.scene, contacts_);
         send_trajectory(done, definition.scene, every_, *writer, channel);
       } catch (const EngineFailure& failure) {
         if (failure.kind() != FailureKind::unsupported) throw;

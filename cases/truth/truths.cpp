@@ -29,6 +29,7 @@ TruthRow reference_truth();
 TruthRow rolling_truth();
 TruthRow slider_truth();
 TruthRow sliding_truth();
+TruthRow soft_bounce_truth();
 TruthRow sprung_ball_truth();
 TruthRow steady_precession_truth();
 TruthRow toppling_truth();
@@ -37,14 +38,19 @@ TruthRow welded_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
-      asymmetric_top_truth(),   axisymmetric_top_truth(), bounce_truth(),
-      cardan_shaft_truth(),     events_truth(),           heavy_top_truth(),
-      line_impacts_truth(),     linkage_truth(),          oscillator_truth(),
-      pendulum_truth(),         pendulum_impacts_truth(), planar_truth(),
-      principal_torque_truth(), projectile_truth(),       pushed_truth(),
-      reference_truth(),        rolling_truth(),          slider_truth(),
-      sliding_truth(),          sprung_ball_truth(),      steady_precession_truth(),
-      toppling_truth(),         transmission_truth(),     welded_truth(),
+      asymmetric_top_truth(),   axisymmetric_top_truth(),
+      bounce_truth(),           cardan_shaft_truth(),
+      events_truth(),           heavy_top_truth(),
+      line_impacts_truth(),     linkage_truth(),
+      oscillator_truth(),       pendulum_impacts_truth(),
+      pendulum_truth(),         planar_truth(),
+      principal_torque_truth(), projectile_truth(),
+      pushed_truth(),           reference_truth(),
+      rolling_truth(),          slider_truth(),
+      sliding_truth(),          soft_bounce_truth(),
+      sprung_ball_truth(),      steady_precession_truth(),
+      toppling_truth(),         transmission_truth(),
+      welded_truth(),
   };
   return table;
 }
@@ -65,13 +71,24 @@ void refuse_pairs_apart(const std::string& kind, const Scene& scene) {
                   kind, scene.body_name(apart->a), scene.body_name(apart->b)));
 }
 
+// Of all truths `rolling` alone knows rolling and torsional friction, and `soft-bounce` soft contacts.
+void refuse_other_laws(const std::string& kind, const Scene& scene) {
+  if (kind == "reference" || !anything_can_touch(scene)) return;
+  if (kind != "rolling" && any_law(scene, [](const ContactLaw& law) { return law.resists_turning(); }))
+    throw InputError(
+        fmt::format("the truth '{}' has no rolling or torsional friction; allowed: 'rolling', or 'none'", kind));
+  if (kind != "soft-bounce" && any_law(scene, [](const ContactLaw& law) { return law.is_soft(); }))
+    throw InputError(fmt::format("the truth '{}' has no soft contacts; allowed: 'soft-bounce', or 'none'", kind));
+}
+
 }  // namespace
 
 std::unique_ptr<Truth> make_truth(const std::string& kind, const Scene& scene, double duration) {
   if (kind == "none") return nullptr;
   std::vector<std::string> names = {"none"};
   for (const TruthRow& row : truths()) {
-    if (row.name == kind) return refuse_pairs_apart(kind, scene), row.make(scene, duration);
+    if (row.name == kind)
+      return refuse_pairs_apart(kind, scene), refuse_other_laws(kind, scene), row.make(scene, duration);
     names.push_back(row.name);
   }
   throw InputError(

@@ -2,6 +2,7 @@
 // of mass. The reader (scene_reader.h) has checked every value before an engine sees it.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -71,10 +72,23 @@ struct Coupling {
 };
 
 // Values of a pair of bodies, because engines combine per-body values by different rules.
+//
+// Rolling friction is a couple of at most rolling_friction * N against the relative angular velocity across the normal,
+// where N is the normal force. Torsional friction is the same about the normal.
+//
+// A stiffness above 0 makes the contact soft: at an overlap x the normal force is max(0, k x + c x'), the law of Kelvin
+// and Voigt. The contact ends where the force does.
 struct ContactLaw {
-  double restitution = 0;  // normal speed after over before, 0..1
-  double friction = 0;     // Coulomb's coefficient, >= 0, may be kInfiniteFriction
-  bool collides = true;    // false: the two bodies pass through each other
+  double restitution = 0;         // normal speed after over before, 0..1
+  double friction = 0;            // Coulomb's coefficient, >= 0, may be kInfiniteFriction
+  bool collides = true;           // false: the two bodies pass through each other
+  double rolling_friction = 0;    // m
+  double torsional_friction = 0;  // m
+  double stiffness = 0;           // N/m; 0: rigid
+  double damping = 0;             // N s/m, of a soft contact
+
+  bool is_soft() const { return stiffness > 0; }
+  bool resists_turning() const { return rolling_friction > 0 || torsional_friction > 0; }
 };
 // Of two bodies that pass through each other.
 inline constexpr ContactLaw kApart = {0, 0, false};
@@ -110,6 +124,14 @@ struct Scene {
   std::string coupling_name(std::size_t index) const;  // "the coupling of joint 'a' to joint 'b'"
   BodyPose pose(int body) const;                       // at t = 0; of the world, W itself
 };
+
+// Whether the law of some pair of bodies meets the condition, or that of all other pairs.
+template <typename Condition>
+bool any_law(const Scene& scene, const Condition& meets) {
+  const auto& pairs = scene.contact_pairs;
+  return meets(scene.contact_default) ||
+         std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return meets(pair.law); });
+}
 
 // The word of the joint's type in case files: "hinge".
 std::string joint_type_name(const Joint& joint);

@@ -169,13 +169,42 @@ Fault fault_of(const ContactLaw& law) {
     return SceneFault{"restitution", fmt::format("found {}; allowed: a number from 0 to 1", law.restitution)};
   if (!(law.friction >= 0))
     return SceneFault{"friction", fmt::format("found {}; allowed: a number of at least 0", law.friction)};
+  for (const auto& [key, value] :
+       {std::pair("rolling_friction", law.rolling_friction), std::pair("torsional_friction", law.torsional_friction),
+        std::pair("stiffness", law.stiffness), std::pair("damping", law.damping)}) {
+    if (!(value >= 0 && std::isfinite(value)))
+      return SceneFault{key, fmt::format("found {}; allowed: a finite number of at least 0", value)};
+  }
+  if (law.damping > 0 && !law.is_soft())
+    return SceneFault{"damping", "without stiffness the contact is rigid; allowed: stiffness, too"};
+  if (law.is_soft() && law.restitution > 0)
+    return SceneFault{"restitution", "the bounce of a soft contact follows from its damping; allowed: one of the two"};
   return {};
+}
+
+// A soft law belongs to one point, and other shapes have several.
+Fault fault_of_soft(const ContactLaw& law, const Body& body) {
+  if (!law.is_soft() || !body.collides || std::holds_alternative<Sphere>(*body.shape) ||
+      std::holds_alternative<Plane>(*body.shape))
+    return {};
+  return SceneFault{"stiffness",
+                    fmt::format("'{}' is no sphere or plane; allowed: a soft contact of those", body.name)};
 }
 
 Fault fault_of(const ContactPair& pair, const Scene& scene) {
   if (!is_body(pair.a, scene) || !is_body(pair.b, scene)) return SceneFault{"", "names a body that is not there"};
   if (pair.a == pair.b) return SceneFault{"b", fmt::format("'{}' cannot touch itself", scene.body_name(pair.a))};
+  for (const int body : {pair.a, pair.b}) {
+    if (const Fault fault = fault_of_soft(pair.law, scene.bodies[static_cast<std::size_t>(body)])) return fault;
+  }
   return fault_of(pair.law);
+}
+
+Fault fault_of_default(const Scene& scene) {
+  for (const Body& body : scene.bodies) {
+    if (const Fault fault = fault_of_soft(scene.contact_default, body)) return fault;
+  }
+  return fault_of(scene.contact_default);
 }
 
 Fault fault_of(const TimedForce& force, const Scene& scene) {
@@ -189,7 +218,7 @@ Fault fault_of(const TimedForce& force, const Scene& scene) {
 void validate(const Scene& scene) {
   if (scene.bodies.empty()) throw InputError("there is no body; allowed: a scene of at least one");
   if (!scene.gravity.allFinite()) throw InputError("gravity: it is not finite");
-  if (const Fault law = fault_of(scene.contact_default)) throw InputError("contact_default: " + law->what);
+  if (const Fault law = fault_of_default(scene)) throw InputError("contact_default: " + law->what);
   std::set<std::string> bodies, joints;
   std::set<std::pair<int, int>> pairs;
   check_rows(scene.bodies, [&](const Body& body, std::size_t) {

@@ -30,6 +30,7 @@ std::optional<SceneFault> fault_of(const ContactLaw& law);
 std::optional<SceneFault> fault_of_times(double from, double until);
 std::optional<SceneFault> not_at_least_zero(const char* key, double value);
 std::optional<SceneFault> fault_of(const ContactPair& pair, const Scene& scene);
+std::optional<SceneFault> fault_of_default(const Scene& scene);  // of contact_default
 std::optional<SceneFault> fault_of(const TimedForce& force, const Scene& scene);
 
 // What is wrong with an inertia; empty if it is one that matter can have: each principal moment is positive, and none

@@ -11,7 +11,11 @@ namespace rigor {
 std::string why_not_built_at_rest(const JudgedRun& run) {
   const Scene& scene = run.scene;
   if (run.trajectory.samples.empty()) return "the run has no finite sample";
-  if (!scene.forces.empty() || !scene.springs.empty() || !scene.joints.empty()) return "more than gravity acts";
+  if (!scene.springs.empty() || !scene.joints.empty()) return "more than gravity acts";
+  const double end = run.trajectory.samples.back().time;
+  const bool are_constant = std::all_of(scene.forces.begin(), scene.forces.end(),
+                                        [&](const TimedForce& force) { return force.from == 0 && force.until >= end; });
+  if (!are_constant || (!run.truth && !scene.forces.empty())) return "more than gravity acts";
   if (run.truth) {
     for (const KeptBodies& table : run.truth->bodies) {
       for (std::size_t i = 0; i < table.size(); ++i) {

@@ -1,5 +1,5 @@
-// Scenes that are built to stand: every body at rest at the start and touching another, only gravity acting. Ground of
-// creep and collapse_time.
+// Scenes that are built to stand: every body at rest at the start and touching another, only gravity acting, or
+// constant forces under which the truth stands. Ground of creep, collapse_time, force_peak and force_ripple.
 #pragma once
 
 #include <optional>

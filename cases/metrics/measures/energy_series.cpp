@@ -24,6 +24,11 @@ bool is_damped(const Scene& scene) {
          });
 }
 
+// A soft contact stores energy that belongs to no body, and gives it back.
+bool any_contact_is_soft(const Scene& scene) {
+  return anything_can_touch(scene) && any_law(scene, [](const ContactLaw& law) { return law.is_soft(); });
+}
+
 Exchange exchange_of(const Scene& scene) {
   if (is_driven(scene)) return Exchange::driving;
   if (contact_may_lose(scene)) return Exchange::contact;
@@ -103,14 +108,18 @@ std::vector<double> rises_of(const std::vector<EnergyBounds>& readings) {
 // The default law counts even where each pair has its own: that can only make the judgement milder.
 bool contact_may_lose(const Scene& scene) {
   if (!anything_can_touch(scene)) return false;
-  const auto loses = [](const ContactLaw& law) { return law.restitution < 1 || law.friction > 0; };
+  const auto loses = [](const ContactLaw& law) {
+    return law.restitution < 1 || law.friction > 0 || law.resists_turning() || law.is_soft();
+  };
   const auto& pairs = scene.contact_pairs;
   return loses(scene.contact_default) || std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
            return pair.law.collides && loses(pair.law);
          });
 }
 
-bool is_driven(const Scene& scene) { return !scene.forces.empty() || !scene.motors.empty(); }
+bool is_driven(const Scene& scene) {
+  return !scene.forces.empty() || !scene.motors.empty() || any_contact_is_soft(scene);
+}
 
 bool may_change_energy(const Scene& scene) { return exchange_of(scene) != Exchange::none; }
 

@@ -199,6 +199,10 @@ class SdfWriter {
                 "it", "SDF has no motors");
     for (const TimedForce& force : scene_.forces)
       leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "it", "SDF has no timed forces");
+    if (scene_.contact_default.resists_turning())
+      leave_out("the contact of all bodies", "its rolling and torsional friction", "SDF states them per engine");
+    if (scene_.contact_default.is_soft())
+      leave_out("the contact of all bodies", "its stiffness", "SDF states it per engine");
     for (const ContactPair& pair : scene_.contact_pairs) {
       const auto of_pair =
           fmt::format("the contact of '{}' and '{}'", scene_.body_name(pair.a), scene_.body_name(pair.b));

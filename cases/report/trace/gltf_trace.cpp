@@ -1,6 +1,8 @@
 // glTF 2.0 (registry.khronos.org/glTF): one file, its numbers as base64. A node a body, moved by an animation; below it
 // its shape, of a few meshes of size one that are scaled. Up is +y there: the node of the world turns the scene's up,
-// against gravity, to it.
+// against gravity, to it. With contacts, each contact of a sample is a red bar from its point along the force on the
+// second body. There are as many bars as a sample has contacts at most; those without a contact have no size.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -91,6 +93,11 @@ class GltfFile {
     return static_cast<int>(json_["meshes"].size()) - 1;
   }
 
+  int add_red_tube() {
+    json_["materials"].push_back(material(0.85, 0.2, 0.15));
+    return add_mesh(unit_tube(), static_cast<int>(json_["materials"].size()) - 1);
+  }
+
  private:
   static Json material(double r, double g, double b) {
     return {
@@ -160,8 +167,11 @@ struct ShapeNodes {
 
 class GltfTrace : public TraceWriter {
  public:
-  explicit GltfTrace(const Scene& scene)
-      : scene_(scene), positions_(scene.bodies.size()), turns_(scene.bodies.size()) {}
+  GltfTrace(const Scene& scene, bool has_contacts)
+      : scene_(scene),
+        positions_(scene.bodies.size()),
+        turns_(scene.bodies.size()),
+        metres_per_newton_(has_contacts ? drawn_metres_per_newton(scene) : 0) {}
 
   std::string add(const Sample& sample) override {
     times_.push_back(static_cast<float>(sample.time));
@@ -176,6 +186,7 @@ class GltfTrace : public TraceWriter {
       for (int k = 0; k < 3; ++k) positions_[i].push_back(static_cast<float>(p[k]));
       for (int k = 0; k < 4; ++k) turns_[i].push_back(static_cast<float>(q.coeffs()[k]));
     }
+    contacts_.push_back(sample.contacts);
     return "";
   }
 
@@ -183,9 +194,10 @@ class GltfTrace : public TraceWriter {
     GltfFile file;
     const Vec3 up = scene_.gravity.isZero(0) ? Vec3::UnitY().eval() : Vec3(-scene_.gravity.normalized());
     const int world = file.add_node({{"name", "world"}, {"rotation", gltf_turn(rotation_between(up, Vec3::UnitY()))}});
-    Json channels = Json::array(), samplers = Json::array(), children = Json::array();
+    Json children = Json::array();
     const int input =
         times_.empty() ? -1 : file.add_floats(times_, 1, {{"min", {times_.front()}}, {"max", {times_.back()}}});
+    GltfAnimation motion{input};
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const Body& body = scene_.bodies[i];
       ShapeNodes shape{file, body.fixed ? 1 : 0};
@@ -196,26 +208,69 @@ class GltfTrace : public TraceWriter {
                                       {"children", shape.nodes}});
       children.push_back(node);
       if (body.fixed || input < 0) continue;
-      const auto animate = [&](const char* path, int output) {
-        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
-        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
-      };
-      animate("translation", file.add_floats(positions_[i], 3));
-      animate("rotation", file.add_floats(turns_[i], 4));
+      motion.animate(node, "translation", file.add_floats(positions_[i], 3), "LINEAR");
+      motion.animate(node, "rotation", file.add_floats(turns_[i], 4), "LINEAR");
     }
+    if (input >= 0) add_bars(file, motion, children);
     file.node(world)["children"] = children;
-    if (!channels.empty()) file.set_animation(channels, samplers);
+    if (!motion.channels.empty()) file.set_animation(motion.channels, motion.samplers);
     return file.text();
   }
 
  private:
+  struct GltfAnimation {
+    int input;  // the accessor of the times
+    Json channels = Json::array(), samplers = Json::array();
+
+    void animate(int node, const char* path, int output, const char* interpolation) {
+      channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+      samplers.push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
+    }
+  };
+
+  // One bar for the k-th contact of each sample. A force is a mean over the step that ends at its sample: it does not
+  // go over into the next one.
+  void add_bars(GltfFile& file, GltfAnimation& motion, Json& children) const {
+    std::size_t most = 0;
+    for (const auto& contacts : contacts_) most = std::max(most, contacts.size());
+    const int mesh = most > 0 && metres_per_newton_ > 0 ? file.add_red_tube() : -1;
+    for (std::size_t k = 0; mesh >= 0 && k < most; ++k) {
+      std::vector<float> places, turns, sizes;
+      for (const auto& contacts : contacts_)
+        add_bar(k < contacts.size() ? &contacts[k] : nullptr, places, turns, sizes);
+      const int node = file.add_node({{"name", "contact force " + std::to_string(k + 1)}, {"mesh", mesh}});
+      children.push_back(node);
+      motion.animate(node, "translation", file.add_floats(places, 3), "STEP");
+      motion.animate(node, "rotation", file.add_floats(turns, 4), "STEP");
+      motion.animate(node, "scale", file.add_floats(sizes, 3), "STEP");
+    }
+  }
+
+  // The tube of length 1 lies along z about its middle.
+  void add_bar(const ReportedContact* contact, std::vector<float>& places, std::vector<float>& turns,
+               std::vector<float>& sizes) const {
+    constexpr double kWidth = 0.08;  // of the bar's length
+    const Vec3 bar = contact ? Vec3(metres_per_newton_ * contact->force) : Vec3::Zero().eval();
+    const double length = bar.norm();
+    const Quat turn = length > 0 ? rotation_between(Vec3::UnitZ(), bar / length) : Quat::Identity();
+    const Vec3 middle = contact ? Vec3(contact->point + bar / 2) : Vec3::Zero().eval();
+    const Vec3 size(kWidth * length, kWidth * length, length);
+    for (int k = 0; k < 3; ++k) places.push_back(static_cast<float>(middle[k]));
+    for (int k = 0; k < 4; ++k) turns.push_back(static_cast<float>(turn.coeffs()[k]));
+    for (int k = 0; k < 3; ++k) sizes.push_back(static_cast<float>(size[k]));
+  }
+
   const Scene& scene_;
   std::vector<float> times_;                           // s
   std::vector<std::vector<float>> positions_, turns_;  // by body: m; x, y, z, w
+  double metres_per_newton_;
+  std::vector<std::vector<ReportedContact>> contacts_;  // by sample
 };
 
 }  // namespace
 
-std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene) { return std::make_unique<GltfTrace>(scene); }
+std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene, bool has_contacts) {
+  return std::make_unique<GltfTrace>(scene, has_contacts);
+}
 
 }  // namespace rigor

@@ -1,5 +1,6 @@
 // {"time": s, "bodies": [{"name", "position", "orientation_wxyz", "velocity", "angular_velocity"}, ...]}, units and
-// frames as the case file's.
+// frames as the case file's. With contacts also "contacts": [{"a", "b", "point", "normal", "gap", "force"}, ...]; the
+// force on b [N] is a mean over the step that ends at the time.
 
 #include "cases/report/trace/trace_formats.h"
 #include "core/base/json.h"
@@ -11,7 +12,7 @@ Json numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 class JsonLinesTrace : public TraceWriter {
  public:
-  explicit JsonLinesTrace(const Scene& scene) : scene_(scene) {}
+  JsonLinesTrace(const Scene& scene, bool has_contacts) : scene_(scene), has_contacts_(has_contacts) {}
   std::string add(const Sample& sample) override {
     Json line = {{"time", sample.time}, {"bodies", Json::array()}};
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
@@ -23,15 +24,27 @@ class JsonLinesTrace : public TraceWriter {
                                 {"velocity", numbers_of(state.velocity)},
                                 {"angular_velocity", numbers_of(state.angular_velocity)}});
     }
+    if (has_contacts_) line["contacts"] = Json::array();
+    for (const ReportedContact& contact : sample.contacts) {
+      line["contacts"].push_back({{"a", scene_.body_name(contact.a)},
+                                  {"b", scene_.body_name(contact.b)},
+                                  {"point", numbers_of(contact.point)},
+                                  {"normal", numbers_of(contact.normal)},
+                                  {"gap", contact.gap},
+                                  {"force", numbers_of(contact.force)}});
+    }
     return line.dump() + "\n";
   }
 
  private:
   const Scene& scene_;
+  bool has_contacts_;
 };
 
 }  // namespace
 
-std::unique_ptr<TraceWriter> jsonl_trace(const Scene& scene) { return std::make_unique<JsonLinesTrace>(scene); }
+std::unique_ptr<TraceWriter> jsonl_trace(const Scene& scene, bool has_contacts) {
+  return std::make_unique<JsonLinesTrace>(scene, has_contacts);
+}
 
 }  // namespace rigor

@@ -1,10 +1,13 @@
 // A run for Foxglove: each body is a frame, moved by FrameTransforms; SceneUpdate sends its shape once
-// (docs.foxglove.dev/docs/visualization/message-schemas). Quaternions have named components x, y, z, w there.
+// (docs.foxglove.dev/docs/visualization/message-schemas). Quaternions have named components x, y, z, w there. With
+// contacts, the topic /contacts has an arrow at each contact point, along the force on the second body, and
+// /contact_forces the numbers.
 #include <cmath>
 
 #include "cases/report/trace/mcap_file.h"
 #include "cases/report/trace/trace_formats.h"
 #include "core/base/json.h"
+#include "core/base/rotation_between.h"
 
 namespace rigor {
 namespace {
@@ -48,13 +51,19 @@ struct Schemas {
     const Json cylinder = object_of(
         {{"pose", pose}, {"size", vector}, {"bottom_scale", number}, {"top_scale", number}, {"color", colour}});
     const Json nothing = list_of(object_of(Json::object()));
+    const Json arrow = object_of({{"pose", pose},
+                                  {"shaft_length", number},
+                                  {"shaft_diameter", number},
+                                  {"head_length", number},
+                                  {"head_diameter", number},
+                                  {"color", colour}});
     Json entity = object_of({{"timestamp", time},
                              {"frame_id", text},
                              {"id", text},
                              {"lifetime", time},
                              {"frame_locked", flag},
                              {"metadata", nothing},
-                             {"arrows", nothing},
+                             {"arrows", list_of(arrow)},
                              {"cubes", list_of(solid)},
                              {"spheres", list_of(solid)},
                              {"cylinders", list_of(cylinder)},
@@ -66,19 +75,42 @@ struct Schemas {
     schema["title"] = "foxglove.SceneUpdate";
     return schema;
   }
+  Json contact_forces() const {
+    const Json contact = object_of(
+        {{"a", text}, {"b", text}, {"point", vector}, {"normal", vector}, {"gap", number}, {"force", vector}});
+    Json schema = object_of({{"contacts", list_of(contact)}});
+    schema["title"] = "rigor.ContactForces";
+    return schema;
+  }
 };
+
+// Without shapes; each message replaces the last one of its id. Lifetime 0 means until then.
+Json entity_without_shapes(const std::string& frame, const std::string& id, std::uint64_t time) {
+  Json entity = {
+      {"timestamp", stamp(time)}, {"frame_id", frame}, {"id", id}, {"lifetime", stamp(0)}, {"frame_locked", true}};
+  for (const char* kind :
+       {"metadata", "arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"})
+    entity[kind] = Json::array();
+  return entity;
+}
+
+// An arrow points along the x of its pose.
+Json arrow_of(const ReportedContact& contact, double metres_per_newton) {
+  constexpr double kHead = 0.25, kWidth = 0.08;  // of the arrow's length
+  const double length = contact.force.norm() * metres_per_newton;
+  const BodyPose pose{contact.point, rotation_between(Vec3::UnitX(), contact.force.normalized())};
+  return {{"pose", pose_json(pose)},
+          {"shaft_length", (1 - kHead) * length},
+          {"shaft_diameter", kWidth * length},
+          {"head_length", kHead * length},
+          {"head_diameter", 2 * kWidth * length},
+          {"color", {{"r", 0.85}, {"g", 0.2}, {"b", 0.15}, {"a", 1}}}};
+}
 
 class Entity {
  public:
   explicit Entity(const Body& body) {
-    json_ = {{"timestamp", stamp(0)},
-             {"frame_id", body.name},
-             {"id", body.name},
-             {"lifetime", stamp(0)},
-             {"frame_locked", true}};
-    for (const char* kind :
-         {"metadata", "arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"})
-      json_[kind] = Json::array();
+    json_ = entity_without_shapes(body.name, body.name, 0);
     colour_ = body.fixed ? Json{{"r", 0.6}, {"g", 0.6}, {"b", 0.6}, {"a", 0.5}}
                          : Json{{"r", 0.25}, {"g", 0.5}, {"b", 0.85}, {"a", 1}};
     std::visit([this](const auto& shape) { (*this)(shape); }, drawn_shape(body));
@@ -131,10 +163,14 @@ class Entity {
 
 class McapTrace : public TraceWriter {
  public:
-  explicit McapTrace(const Scene& scene) : scene_(scene) {
+  McapTrace(const Scene& scene, bool has_contacts)
+      : scene_(scene), has_contacts_(has_contacts), metres_per_newton_(drawn_metres_per_newton(scene)) {
     const Schemas schemas;
     shapes_ = file_.add_channel("/scene", "foxglove.SceneUpdate", schemas.scene().dump());
     frames_ = file_.add_channel("/tf", "foxglove.FrameTransforms", schemas.transforms().dump());
+    if (!has_contacts) return;
+    arrows_ = file_.add_channel("/contacts", "foxglove.SceneUpdate", schemas.scene().dump());
+    forces_ = file_.add_channel("/contact_forces", "rigor.ContactForces", schemas.contact_forces().dump());
   }
 
   std::string begin(std::size_t) override {
@@ -155,19 +191,40 @@ class McapTrace : public TraceWriter {
                             {"translation", xyz(bodies.position(i))},
                             {"rotation", xyzw(bodies.orientation(i))}});
     }
-    return file_.add(frames_, time, Json{{"transforms", transforms}}.dump());
+    const std::string frames = file_.add(frames_, time, Json{{"transforms", transforms}}.dump());
+    return has_contacts_ ? frames + add_contacts(sample, time) : frames;
   }
 
   std::string end() override { return file_.end(); }
 
  private:
+  std::string add_contacts(const Sample& sample, std::uint64_t time) {
+    Json entity = entity_without_shapes(kRoot, "contacts", time), contacts = Json::array();
+    for (const ReportedContact& contact : sample.contacts) {
+      contacts.push_back({{"a", scene_.body_name(contact.a)},
+                          {"b", scene_.body_name(contact.b)},
+                          {"point", xyz(contact.point)},
+                          {"normal", xyz(contact.normal)},
+                          {"gap", contact.gap},
+                          {"force", xyz(contact.force)}});
+      if (!contact.force.isZero(0)) entity["arrows"].push_back(arrow_of(contact, metres_per_newton_));
+    }
+    const Json update = {{"deletions", Json::array()}, {"entities", Json::array({entity})}};
+    const std::string arrows = file_.add(arrows_, time, update.dump());
+    return arrows + file_.add(forces_, time, Json{{"contacts", contacts}}.dump());
+  }
+
   const Scene& scene_;
+  bool has_contacts_;
+  double metres_per_newton_;
   McapFile file_;
-  std::uint16_t shapes_ = 0, frames_ = 0;
+  std::uint16_t shapes_ = 0, frames_ = 0, arrows_ = 0, forces_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<TraceWriter> mcap_trace(const Scene& scene) { return std::make_unique<McapTrace>(scene); }
+std::unique_ptr<TraceWriter> mcap_trace(const Scene& scene, bool has_contacts) {
+  return std::make_unique<McapTrace>(scene, has_contacts);
+}
 
 }  // namespace rigor

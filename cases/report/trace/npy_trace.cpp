@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "cases/report/trace/trace_formats.h"
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {
@@ -73,6 +74,9 @@ class NpyTrace : public TraceWriter {
 
 }  // namespace
 
-std::unique_ptr<TraceWriter> npy_trace(const Scene& scene) { return std::make_unique<NpyTrace>(scene); }
+std::unique_ptr<TraceWriter> npy_trace(const Scene& scene, bool has_contacts) {
+  if (has_contacts) throw InputError("--contacts: an array of NumPy has the bodies' states alone; use --format csv");
+  return std::make_unique<NpyTrace>(scene);
+}
 
 }  // namespace rigor

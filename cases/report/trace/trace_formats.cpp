@@ -48,7 +48,21 @@ const TraceFormat& find_trace_format(const std::string& name) {
       fmt::format("--format: there is no '{}'{}; there is: {}", name, did_you_mean(name, names), listed(names)));
 }
 
-std::unique_ptr<TraceWriter> csv_trace(const Scene& scene) { return std::make_unique<CsvTrace>(scene); }
+std::unique_ptr<TraceWriter> csv_trace(const Scene& scene, bool has_contacts) {
+  if (has_contacts) return contacts_trace(scene);  // a table has one kind of rows
+  return std::make_unique<CsvTrace>(scene);
+}
+
+double drawn_metres_per_newton(const Scene& scene) {
+  constexpr double kUsual = 9.81;  // m/s²
+  double size = 0, mass = 0;
+  for (const Body& body : scene.bodies) {
+    if (body.fixed || !body.collides) continue;
+    size += bounding_radius(*body.shape), mass += body.mass;
+  }
+  const double gravity = scene.gravity.isZero(0) ? kUsual : scene.gravity.norm();
+  return mass > 0 ? size / (mass * gravity) : 0;
+}
 
 Shape drawn_shape(const Body& body) {
   if (body.shape) return *body.shape;

@@ -5,11 +5,11 @@
 
 namespace rigor {
 
-extern const ContactMethod kCourseContact, kEventContact, kImpulseContact;
+extern const ContactMethod kCourseContact, kEventContact, kImpulseContact, kSoftContact;
 
 // Not alphabetical: see contact_method_for().
 const std::vector<ContactMethod>& contact_methods() {
-  static const std::vector<ContactMethod> table = {kCourseContact, kImpulseContact, kEventContact};
+  static const std::vector<ContactMethod> table = {kCourseContact, kImpulseContact, kEventContact, kSoftContact};
   return table;
 }
 

@@ -31,9 +31,12 @@ const FeatureWord kPlainWords[] = {
     {Feature::motor_table, "motor:table"},
     {Feature::placed_shapes, "placed-shapes"},
     {Feature::restitution, "restitution"},
+    {Feature::rolling_friction, "rolling-friction"},
+    {Feature::soft_contact, "soft-contact"},
     {Feature::speed_motor_with_limits, "speed-motor-with-limits"},
     {Feature::spring, "spring"},
     {Feature::timed_force, "timed-force"},
+    {Feature::torsional_friction, "torsional-friction"},
     {Feature::two_speeds_at_once, "two-speeds-at-once"},
     {Feature::wrench, "wrench"},
 };

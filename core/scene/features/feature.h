@@ -40,9 +40,12 @@ enum class Feature : int {
   motor_table,    // an effort that changes in time
   placed_shapes,  // shapes with poses, several of them for one body
   restitution,
+  rolling_friction,
+  soft_contact,             // a contact with a stiffness
   speed_motor_with_limits,  // a joint with limits and a motor that keeps a speed
   spring,
   timed_force,
+  torsional_friction,
   two_speeds_at_once,  // a joint with two motors that keep speeds at the same time
   wrench,              // of a plug-in: it applies the forces and torques that Rigor computes
   // One value for each joint type starts here, then one for each pair of shapes. Call joint_feature() and

@@ -32,10 +32,10 @@ class SceneReader {
     for (const TableReader& row : rows(table, "coupling", coupling_keys())) add_coupling(row);
     for (const TableReader& row : rows(table, "motor", motor_keys())) scene_.motors.push_back(read_motor(row, scene_));
     if (const auto law = table.find("contact_default")) {
-      scene_.contact_default = read_law(law->table({"restitution", "friction"}), {});
+      scene_.contact_default = read_law(law->table(kLawKeys), {});
+      refuse_if(fault_of_default(scene_), law->table(kLawKeys));
     }
-    for (const TableReader& row : rows(table, "contact", {"a", "b", "restitution", "friction", "collides"}))
-      add_contact(row);
+    for (const TableReader& row : rows(table, "contact", kPairKeys)) add_contact(row);
     if (const auto flag = table.find("self_contact"); flag && !flag->flag()) keep_joined_bodies_apart();
     for (const TableReader& row : rows(table, "force", kForceKeys)) scene_.forces.push_back(read_force(row));
     return std::move(scene_);
@@ -43,6 +43,11 @@ class SceneReader {
 
  private:
   inline static const Keys kSpringKeys = {"a", "point_a", "b", "point_b", "stiffness", "damping", "rest_length"};
+  inline static const Keys kLawKeys = {"restitution",        "friction",  "rolling_friction",
+                                       "torsional_friction", "stiffness", "damping"};
+  inline static const Keys kPairKeys = {
+      "a",         "b",      "restitution", "friction", "collides", "rolling_friction", "torsional_friction",
+      "stiffness", "damping"};
   inline static const Keys kForceKeys = {"body", "force", "torque", "point", "from", "until"};
 
   static std::vector<TableReader> rows(const TableReader& table, std::string_view key, const Keys& allowed) {
@@ -125,6 +130,11 @@ class SceneReader {
   static ContactLaw read_law(const TableReader& row, ContactLaw law) {
     if (const auto restitution = row.find("restitution")) law.restitution = restitution->fraction_of_one();
     if (const auto friction = row.find("friction")) law.friction = friction->non_negative_or_infinite();
+    for (const auto& [key, value] : {std::pair("rolling_friction", &law.rolling_friction),
+                                     std::pair("torsional_friction", &law.torsional_friction),
+                                     std::pair("stiffness", &law.stiffness), std::pair("damping", &law.damping)}) {
+      if (const auto given = row.find(key)) *value = given->non_negative();
+    }
     return law;
   }
 
@@ -132,7 +142,7 @@ class SceneReader {
     const int a = index_.body(row.at("a")), b = index_.body(row.at("b"));
     ContactPair pair{a, b, read_law(row, scene_.contact_default)};
     if (const auto collides = row.find("collides"); collides && !collides->flag()) {
-      for (const char* key : {"restitution", "friction"}) {
+      for (const std::string& key : kLawKeys) {
         if (row.find(key)) row.at(key).refuse("the pair never touches, for collides is false; allowed: one of the two");
       }
       pair.law = kApart;

@@ -13,7 +13,7 @@ const std::vector<std::string>& case_keys();
 const std::vector<std::string>& scene_keys();
 
 // Throws InputError with the file, line, column and key of the first thing that no scene can have. A contact pair that
-// leaves out its restitution or friction takes the one of contact_default, which is 0 if that leaves it out too.
+// leaves out a value takes the one of contact_default, which is 0 if that leaves it out too.
 // Initial velocities that break a joint are refused, unless they are read to be mended.
 enum class InitialVelocities { checked, as_given };
 Scene read_scene(const TomlValue& value, InitialVelocities velocities = InitialVelocities::checked);

@@ -76,6 +76,8 @@ std::string why_no_wrenches(const JudgedRun& run) {
   if (!run.truth) return kNoTruth;
   if (!run.scene.springs.empty() || !run.scene.joints.empty())
     return "springs or joints hold bodies, and their forces are not among the contacts'";
+  if (any_law(run.scene, [](const ContactLaw& law) { return law.resists_turning(); }))
+    return "rolling or torsional friction adds a couple, which engines do not report with their contact forces";
   return samples_within(run, kTruthNeededPosition) < 2 ? kNoSamples : "";
 }
 

@@ -44,6 +44,26 @@ std::string friction_text(const Results& results, const Diagnosis& found, const 
                       "m"));
 }
 
+std::string spikes_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  return fmt::format("Why: the contact force of {} at rest grows as dt falls. The largest, over that of rest: {}.",
+                     name, text_over_steps(results, found, "force_peak", "", claims));
+}
+
+std::string creep_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  const StepSize& dt = found.over.back().first;
+  return fmt::format(
+      "Why: the friction of {} holds no body at rest. At the end a body is {} from its place, at dt = {} s.", name,
+      claims.quantity(claim_of(results, found, dt, "creep", found.value), "m"), dt.text);
+}
+
+std::string text_of_topic(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  if (found.topic == kOverlapGivenBack) return overlap_text(results, found, name, claims);
+  if (found.topic == kUnconverged) return unconverged_text(results, found, name, claims);
+  if (found.topic == kForceSpikes) return spikes_text(results, found, name, claims);
+  if (found.topic == kCreeps) return creep_text(results, found, name, claims);
+  return friction_text(results, found, name, claims);
+}
+
 }  // namespace
 
 Claim claim_of(const Results& results, const Diagnosis& found, const StepSize& dt, const std::string& quantity,
@@ -67,9 +87,7 @@ std::vector<Message> contact_explanations(const Results& results, const CaseResu
   for (const Diagnosis& found : contact_diagnoses(result)) {
     const std::string& name = results.runs[found.runs.front()].text;
     Claims claims;
-    const std::string text = found.topic == kOverlapGivenBack ? overlap_text(results, found, name, claims)
-                             : found.topic == kUnconverged    ? unconverged_text(results, found, name, claims)
-                                                              : friction_text(results, found, name, claims);
+    const std::string text = text_of_topic(results, found, name, claims);
     messages.push_back({found.topic, found.cause.empty() ? text : text + " " + found.cause, "", claims.take()});
   }
   return messages;

@@ -61,6 +61,7 @@ std::vector<Finding> findings(const Results& results) {
   add(energy_finding(results, names, dt));
   add(friction_finding(results, names, dt));
   add(impacts_finding(results, names.order()));
+  add(contact_forces_finding(results, names.order()));
   add(joints_finding(results, names.order(), dt));
   add(blow_up_finding(results, names, dt));
   add(sampling_finding(results, names, dt));

@@ -33,6 +33,14 @@ std::map<std::string, SameCause> by_cause(const std::vector<Diagnosis>& all, con
   return found;
 }
 
+std::optional<Diagnosis> worst_of_topic(const std::vector<Diagnosis>& all, const char* topic, std::size_t run) {
+  std::optional<Diagnosis> worst;
+  for (const Diagnosis& one : all) {
+    if (one.topic == topic && one.runs.front() == run && (!worst || one.value > worst->value)) worst = one;
+  }
+  return worst;
+}
+
 }  // namespace
 
 std::optional<Finding> impacts_finding(const Results& results, const std::vector<std::size_t>& runs) {
@@ -58,6 +66,37 @@ std::optional<Finding> impacts_finding(const Results& results, const std::vector
     return claims.percent(
                claim_of(results, worst, worst.over.front().first, "worst found of restitution_error", worst.value)) +
            " of the approach speed";
+  });
+  if (finding.text.empty()) return std::nullopt;
+  finding.claims = claims.take();
+  return finding;
+}
+
+std::optional<Finding> contact_forces_finding(const Results& results, const std::vector<std::size_t>& runs) {
+  std::vector<Diagnosis> all;
+  for (const CaseResult& result : results.cases) {
+    for (Diagnosis& found : contact_diagnoses(result)) all.push_back(std::move(found));
+  }
+  Finding finding{"contact-forces", "", ""};
+  Claims claims;
+  const auto add = [&](const char* topic, const std::string& what, const auto& text_of) {
+    std::string said;
+    for (const std::size_t run : runs) {
+      const std::optional<Diagnosis> worst = worst_of_topic(all, topic, run);
+      if (!worst) continue;
+      const std::string& name = results.runs[run].text;
+      said += fmt::format("{}{} ({} on {})", said.empty() ? "" : "; ", name, text_of(*worst), worst->of_case);
+      if (!worst->cause.empty())
+        finding.more += fmt::format("{}{}: {}", finding.more.empty() ? "" : " ", name, worst->cause);
+    }
+    if (!said.empty()) finding.text += fmt::format("{}{}: {}.", finding.text.empty() ? "" : " ", what, said);
+  };
+  add(kForceSpikes, "Forces at rest that grow as dt falls, the largest over that of rest",
+      [&](const Diagnosis& worst) { return text_over_steps(results, worst, "force_peak", "", claims); });
+  add(kCreeps, "Bodies that should stand move on", [&](const Diagnosis& worst) {
+    const StepSize& dt = worst.over.back().first;
+    return fmt::format("{} at dt = {} s", claims.quantity(claim_of(results, worst, dt, "creep", worst.value), "m"),
+                       dt.text);
   });
   if (finding.text.empty()) return std::nullopt;
   finding.claims = claims.take();

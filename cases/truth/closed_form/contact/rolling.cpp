@@ -4,6 +4,10 @@
 // suffices, |g_t|
 // <= mu g_n (1 + k)/k. Otherwise it slips on downhill. For a solid sphere k = 2/5: 5/7 g_t, up to tan(slope) = 3.5 mu
 // (Kleppner and Kolenkow, An Introduction to Mechanics, chapter 6).
+//
+// With rolling friction of length d the plane's force acts d ahead of the contact point (Johnson, Contact Mechanics,
+// 1985, section 8.5). A rolling body then has the acceleration (g_t - (d/r) g_n v/|v|)/(1 + k), and it rests while
+// |g_t| <= (d/r) g_n. With torsional friction of length s a sphere that spins about the normal slows by s g_n/(k r²).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -21,10 +25,12 @@ constexpr const char* kRollingIsFor = "spheres and cylinders that touch one plan
 // One sphere on the plane, phase by phase.
 class Roller {
  public:
-  Roller(const Body& body, const Ground& ground, double friction)
+  Roller(const Body& body, const Ground& ground, const ContactLaw& law)
       : body_(body),
         ground_(ground),
-        friction_(friction),
+        friction_(law.friction),
+        rolling_friction_(law.rolling_friction),
+        torsional_friction_(law.torsional_friction),
         r_(check()),
         k_(rolling_inertia(body) / (body.mass * r_ * r_)) {}
 
@@ -33,9 +39,12 @@ class Roller {
               {extended(body_.position), extended(body_.orientation), extended(body_.velocity),
                extended(body_.angular_velocity)}};
     std::vector<Phase> out;
+    if (spins()) return spin_down(now);
     bool slips = friction_ == 0 || slip(now.start).norm() > kNoSlip * (now.start.velocity.norm() + 1);
     while (true) {
-      const auto end = slips ? slip_on(now) : roll_on(now);
+      if (slips && rolling_friction_ > 0)
+        ground_.refuse(body_, "slips, and rolling friction is taken of bodies that roll");
+      const auto end = slips ? slip_on(now) : rolling_friction_ > 0 ? roll_against(now) : roll_on(now);
       out.push_back(now);
       if (!end || *end > duration) return out;
       now = {*end, now.at(*end)};
@@ -84,8 +93,28 @@ class Roller {
   double check_motion(double radius) const {
     const ExtendedVec3 v = extended(body_.velocity), w = extended(body_.angular_velocity);
     if (std::abs(ground_.normal().dot(v)) > 1e-12L * v.norm()) ground_.refuse(body_, "leaves or enters the plane");
-    if (std::abs(ground_.normal().dot(w)) > 1e-12L * w.norm()) ground_.refuse(body_, "spins about the plane's normal");
+    if (std::abs(ground_.normal().dot(w)) > 1e-12L * w.norm() && !spins())
+      ground_.refuse(body_, "spins about the plane's normal");
     return radius;
+  }
+
+  // Only a ball that stays where it is, under torsional friction.
+  bool spins() const {
+    const ExtendedVec3 w = extended(body_.angular_velocity);
+    return torsional_friction_ > 0 && w.norm() > 0 && std::holds_alternative<Sphere>(*body_.shape) &&
+           ground_.part_along(w).norm() <= 1e-12L * w.norm() && body_.velocity.isZero(0) &&
+           ground_.along().norm() <= rolling_friction_ / r_of_ball() * ground_.pressing();
+  }
+  Extended r_of_ball() const { return std::get<Sphere>(*body_.shape).radius; }
+
+  std::vector<Phase> spin_down(Phase phase) const {
+    const ExtendedVec3 w = ground_.normal().dot(phase.start.angular_velocity) * ground_.normal();
+    phase.start.angular_velocity = w;
+    phase.angular_acceleration = -torsional_friction_ * ground_.pressing() / (k_ * r_ * r_) * w.normalized();
+    const Extended end = phase.from + w.norm() / phase.angular_acceleration.norm();
+    Phase rest{end, phase.at(end)};
+    rest.start.angular_velocity.setZero();
+    return {phase, rest};
   }
 
   ExtendedVec3 slip(const ExtendedState& s) const {
@@ -128,6 +157,25 @@ class Roller {
     return {};
   }
 
+  // As roll_on(), against rolling friction. Ends where the body comes to rest.
+  std::optional<Extended> roll_against(Phase& phase) const {
+    const ExtendedVec3 v = phase.start.velocity;
+    const Extended resistance = rolling_friction_ / r_ * ground_.pressing();
+    const bool moves = v.norm() > kNoSlip, rests = !moves && ground_.along().norm() <= resistance;
+    if (moves && !are_along(v, ground_.along()))
+      ground_.refuse(body_, "rolls across the slope, so that its path bends");
+    const ExtendedVec3 way = moves ? ExtendedVec3(v.normalized()) : unit(ground_.along());
+    if (!rests) phase.acceleration = (ground_.along() - resistance * way) / (1 + k_);
+    if ((phase.acceleration - ground_.along()).norm() > friction_ * ground_.pressing())
+      ground_.refuse(body_, "slips, and rolling friction is taken of bodies that roll");
+    if (!moves) phase.start.velocity.setZero();
+    phase.start.angular_velocity = rolling_with(phase.start.velocity);
+    phase.angular_acceleration = rolling_with(phase.acceleration);
+    const Extended gains = phase.acceleration.dot(way);
+    if (!moves || gains >= 0) return {};
+    return phase.from + v.norm() / -gains;
+  }
+
   std::optional<Extended> slip_downhill(Phase& phase) const {
     const ExtendedVec3 friction = -friction_ * ground_.pressing() * unit(ground_.along());
     if (!are_along(phase.start.velocity, ground_.along()))
@@ -143,21 +191,22 @@ class Roller {
   const Body& body_;
   const Ground& ground_;
   Extended friction_;
-  Extended r_;  // m
-  Extended k_;  // 1, I/(m r²)
+  Extended rolling_friction_, torsional_friction_;  // m
+  Extended r_;                                      // m
+  Extended k_;                                      // 1, I/(m r²)
 };
 
 std::unique_ptr<Truth> make_rolling(const Scene& scene, double duration) {
   check_needs(scene, kRolling, kRollingIsFor,
               {contact_feature<Cylinder, Plane>(), contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(),
                Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite, Feature::restitution,
-               Feature::contact_filter});
+               Feature::contact_filter, Feature::rolling_friction, Feature::torsional_friction});
   const Ground ground(scene, kRolling, kRollingIsFor);
   std::vector<SweptDisk> sweeps;
   const auto motion_of = [&](const Body& body) {
     const int index = static_cast<int>(&body - scene.bodies.data());
     if (!scene.contact_law(index, ground.body()).collides) ground.refuse(body, "passes through the plane");
-    Roller roller(body, ground, scene.contact_law(index, ground.body()).friction);
+    Roller roller(body, ground, scene.contact_law(index, ground.body()));
     auto motion = std::make_unique<PhasedMotion>(roller.phases(duration), std::abs(ground.gap_under(body)));
     sweeps.push_back({&body, motion->way(duration), bounding_radius(*body.shape)});
     return motion;

@@ -233,6 +233,16 @@ void ContactRowLayout::add_impulses(const std::vector<ContactConstraint>& constr
   }
 }
 
+std::vector<const double*> ContactRowLayout::normal_impulses(std::size_t constraints) const {
+  std::vector<const double*> places(constraints, nullptr);
+  for (std::size_t thread = 0; thread < threads_; ++thread) {
+    for_each_row(thread, [&](std::size_t g, std::size_t k, std::size_t i, std::size_t point) {
+      places[i] = &at(groups_[g].block(point), kImpulse, k);
+    });
+  }
+  return places;
+}
+
 std::size_t ContactRowLayout::constraint_of(const double* first) const {
   const auto next = std::upper_bound(groups_.begin(), groups_.end(), first,
                                      [](const double* row, const RowGroup& group) { return row < group.rows; });

@@ -9,6 +9,8 @@
 // that pushed bodies keep no speed. Where bodies bounce, fast contacts have had their impacts before, each at its own
 // instant of the sub-step (rebounds.h). kernels/contact_row_kernels-inl.h has the row arithmetic, several rows at a
 // time.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/dynamics/contact/contact_method.h"
@@ -19,7 +21,9 @@
 #include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 #include "core/dynamics/contact/impulse/step_impulses.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
+#include "core/dynamics/contact/impulse/turning_friction.h"
 #include "core/dynamics/kernels/contact_kernels.h"
+#include "core/engine/engine_failure.h"
 
 namespace rigor {
 namespace {
@@ -52,6 +56,7 @@ class ImpulseStepper : public ContactStepper {
         search_(threads_->members()),
         impacts_(rows_, *threads_),
         deep_(rows_, *threads_),
+        turning_(scene),
         rebounds_(parts.system, SubSteps::takes_impacts_at_once(parts.settings)),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
@@ -121,6 +126,7 @@ class ImpulseStepper : public ContactStepper {
       threads_->meet();
       rows_.fill(constraints, impulse_scale, solver_bodies(), thread);
     });
+    turning_.assign(constraints, rows_, impulse_scale, solver_bodies());
   }
 
   // Gaps and the speeds at which they close, before the bodies move, and with them the biases. The velocities are those
@@ -174,6 +180,7 @@ class ImpulseStepper : public ContactStepper {
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().warm_start(groups, count, solver_bodies());
     });
+    by_one_thread(thread, [&] { turning_.warm_start(solver_bodies()); });
   }
 
   // A body that lands flat must not begin to rotate because of the order of its corners. Impacts are therefore solved
@@ -183,6 +190,15 @@ class ImpulseStepper : public ContactStepper {
       contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
     });
     impacts_.solve(contact_kernels().sweep_with_bias, solver_bodies(), parameters_, thread);
+    by_one_thread(thread, [&] { turning_.solve(solver_bodies()); });
+  }
+
+  // Rolling and torsional friction, which few scenes have, while the other threads wait.
+  template <typename Work>
+  void by_one_thread(std::size_t thread, const Work& work) {
+    if (!turning_.are_any()) return;
+    if (thread == 0) work();
+    threads_->meet();
   }
 
   // The integrator has moved the bodies; the velocity changes by the impulses move them further.
@@ -199,6 +215,8 @@ class ImpulseStepper : public ContactStepper {
       contact_kernels().relax(groups, count, solver_bodies());
     });
     deep_.solve(contact_kernels().sweep_without_bias, solver_bodies(), parameters_, thread);
+    // Some integrators leave the normal impulse of a body at rest to this pass.
+    by_one_thread(thread, [&] { turning_.solve(solver_bodies()); });
   }
 
   static std::ptrdiff_t at_record(std::size_t body) { return static_cast<std::ptrdiff_t>(kRecord * body); }
@@ -217,6 +235,7 @@ class ImpulseStepper : public ContactStepper {
   ContactRowLayout rows_;
   ImpactSearch search_;
   RowSweeps impacts_, deep_;  // points that meet in this sub-step, and those that overlap deeply from the start
+  TurningFriction turning_;
   Rebounds rebounds_;
   StepImpulses reports_;
   SolverParameters parameters_{};
@@ -226,7 +245,18 @@ class ImpulseStepper : public ContactStepper {
   std::unique_ptr<Stepper> integrator_;
 };
 
+// Impacts at their own instants, also of contacts that others push, and rows that act through joints have no couples.
+void refuse_turning_friction(const Scene& scene, bool has_joints) {
+  const bool resists = any_law(scene, [](const ContactLaw& law) { return law.resists_turning(); });
+  const bool bounces = any_law(scene, [](const ContactLaw& law) { return law.restitution > 0; });
+  if (!resists || (!bounces && !has_joints)) return;
+  throw EngineFailure(FailureKind::unsupported,
+                      fmt::format("contact=impulse has no rolling or torsional friction in a scene with {}",
+                                  bounces ? "restitution" : "joints"));
+}
+
 std::unique_ptr<ContactStepper> make_impulse_stepper(const Scene& scene, const ContactParts& parts) {
+  refuse_turning_friction(scene, parts.joints != nullptr);
   if (parts.joints) return make_jointed_impulse_stepper(scene, parts);
   return std::make_unique<ImpulseStepper>(scene, parts);
 }
@@ -237,13 +267,13 @@ extern const ContactMethod kImpulseContact;
 const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
-    .features =
-        joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
-               {contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>(),
-                contact_feature<Ellipsoid, Plane>(), contact_feature<Ellipsoid, Sphere>(), Feature::placed_shapes,
-                Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none,
-                Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit,
-                Feature::joint_limit_of_compound_slider, Feature::motor_speed, Feature::joint_friction}),
+    .features = joined(
+        contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
+        {contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>(), contact_feature<Ellipsoid, Plane>(),
+         contact_feature<Ellipsoid, Sphere>(), Feature::placed_shapes, Feature::contact_filter,
+         Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none, Feature::restitution,
+         Feature::rolling_friction, Feature::torsional_friction, Feature::joints_with_contacts, Feature::joint_limit,
+         Feature::joint_limit_of_compound_slider, Feature::motor_speed, Feature::joint_friction}),
     .options = {kSubStepsOption, kImpactsOption},
     .make = make_impulse_stepper,
 };

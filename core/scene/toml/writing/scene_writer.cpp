@@ -153,8 +153,15 @@ Json row_of(const Motor& motor, const Scene& scene) {
 }
 
 Json row_of(const ContactLaw& law) {
-  return {{"restitution", law.restitution},
-          {"friction", std::isfinite(law.friction) ? Json(law.friction) : Json("infinite")}};
+  Json row = {{"restitution", law.restitution},
+              {"friction", std::isfinite(law.friction) ? Json(law.friction) : Json("infinite")}};
+  // Absent: 0. Engines from outside that know none of these keep the scenes that they had.
+  for (const auto& [key, value] :
+       {std::pair("rolling_friction", law.rolling_friction), std::pair("torsional_friction", law.torsional_friction),
+        std::pair("stiffness", law.stiffness), std::pair("damping", law.damping)}) {
+    if (value > 0) row[key] = value;
+  }
+  return row;
 }
 
 Json row_of(const ContactPair& pair, const Scene& scene) {

@@ -73,6 +73,14 @@ BOOST_AUTO_TEST_CASE(what_moves_in_truth_is_not_built_to_stand) {
   for (const Sample& sample : standing(scene, 3).samples)
     truth.bodies.push_back(sample.bodies), truth.error.push_back(0);
   BOOST_TEST(why_not(scene, &truth) == "");
+  Scene pressed = scene;
+  pressed.forces = {{.body = 1, .force = {0, 0, -1}}};
+  BOOST_TEST(why_not(pressed, &truth) == "");
+  BOOST_TEST(why_not(pressed) == "more than gravity acts");  // no truth says that it stands
+  pressed.forces[0].from = 1;
+  BOOST_TEST(why_not(pressed, &truth) == "more than gravity acts");
+  pressed.forces[0].from = 0, pressed.forces[0].until = 1.5;
+  BOOST_TEST(why_not(pressed, &truth) == "more than gravity acts");
   for (const std::size_t body : {0, 1, 2}) {
     truth.bodies[2].columns().set_velocity(body, {0, 0, 1e-9});
     BOOST_TEST(why_not(scene, &truth) == "bodies move in truth");

@@ -157,4 +157,87 @@ BOOST_AUTO_TEST_CASE(three_js_moves_the_bodies_as_the_run_did) {
 
 #endif
 
+// A box of 1 kg at rest: the forces of the last step add up to its weight in each format.
+struct TracedContacts : Program {
+  TracedContacts() {
+    folder.write("box.toml", R"(title = "box"
+[scene]
+gravity = [0, 0, -10]
+[[scene.body]]
+name = "box"
+mass = 1
+shape = { type = "box", size = [1, 1, 1] }
+position = [0, 0, 0.5]
+[[scene.body]]
+name = "floor"
+shape = { type = "plane", normal = [0, 0, 1], offset = 0 }
+[scene.contact_default]
+friction = 0.5
+[run]
+duration = 1
+dt = ["1/100"]
+)");
+  }
+  std::string trace(const std::string& format) {
+    const Answer answer = run({"trace", "box.toml", "--engine", "core:velocity-verlet,contact=impulse", "--dt", "1/100",
+                               "--contacts", "--format", format});
+    BOOST_TEST_REQUIRE(answer.code == 0, answer.err);
+    folder.write("trace." + format, answer.out);
+    return answer.out;
+  }
+};
+
+BOOST_FIXTURE_TEST_CASE(json_lines_have_the_contact_forces, TracedContacts) {
+  std::istringstream lines(trace("jsonl"));
+  std::string line, last;
+  while (std::getline(lines, line)) last = line;
+  const Json contacts = Json::parse(last).at("contacts");
+  BOOST_TEST_REQUIRE(contacts.size() == 4u);
+  double weight = 0;
+  for (const Json& contact : contacts) {
+    const double sign = contact.at("b") == "box" ? 1 : -1;
+    weight += sign * contact.at("force")[2].get<double>();
+    BOOST_TEST(std::abs(contact.at("normal")[2].get<double>() - sign) < 1e-12);
+  }
+  BOOST_TEST(std::abs(weight - 10) < 1e-5);
+}
+
+// A bar along each force; that of the weight of 10 N would be as long as the box's bounding radius.
+BOOST_FIXTURE_TEST_CASE(gltf_has_a_bar_for_each_contact, TracedContacts) {
+  const Json file = Json::parse(trace("gltf"));
+  int bars = 0, moved = 0;
+  for (const Json& one : file.at("nodes")) bars += one.value("name", "").starts_with("contact force");
+  for (const Json& channel : file.at("animations")[0].at("channels")) {
+    const Json& target = file.at("nodes")[channel.at("target").at("node").get<std::size_t>()];
+    moved += target.value("name", "").starts_with("contact force");
+  }
+  BOOST_TEST(bars == 4);
+  BOOST_TEST(moved == 12);  // translation, rotation and scale of each
+}
+
+#if RIGOR_HTML_REPORT
+
+BOOST_FIXTURE_TEST_CASE(foxgloves_reader_finds_the_arrows, TracedContacts) {
+  trace("mcap");
+  const std::string command = "node '" RIGOR_SOURCE_DIR "/tests/cases/report/trace/mcap_check.mjs' '" RIGOR_BUILD_DIR
+                              "/trace-npm' '" +
+                              path("trace.mcap") + "' >'" + path("found") + "'";
+  BOOST_TEST_REQUIRE(std::system(command.c_str()) == 0);
+  const Json found = Json::parse(content("found"));
+  BOOST_TEST(found.at("messages").at("/contacts") == 101);
+  BOOST_TEST(found.at("messages").at("/contact_forces") == 101);
+  const Json& arrows = found.at("last").at("/contacts").at("entities")[0].at("arrows");
+  const Json& contacts = found.at("last").at("/contact_forces").at("contacts");
+  BOOST_TEST_REQUIRE(arrows.size() == 4u);
+  double length = 0;
+  for (const Json& arrow : arrows)
+    length += arrow.at("shaft_length").get<double>() + arrow.at("head_length").get<double>();
+  BOOST_TEST(std::abs(length - std::sqrt(0.75)) < 1e-5);
+  double weight = 0;
+  for (const Json& contact : contacts) weight += std::abs(contact.at("force").at("z").get<double>());
+  BOOST_TEST(std::abs(weight - 10) < 1e-5);
+}
+
+#endif
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -66,6 +66,34 @@ BOOST_AUTO_TEST_CASE(a_spread_over_directions_is_told_with_the_worst_way) {
   BOOST_TEST(said_of(with("friction_anisotropy", 0.3, 0.001, short_one)).empty());
 }
 
+BOOST_AUTO_TEST_CASE(forces_that_grow_as_dt_falls_are_spikes) {
+  const Instant spike{0.1, 0, "force", 90, 10};
+  const auto said = said_of(with("force_peak", 1.2, 9, spike));
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "grows as dt falls"));
+  BOOST_TEST(has(said[0], "1.2 at dt = 1/10 s, 9 at 1/20 s"));
+  BOOST_TEST(has(said[0], "0.2 of it"));
+  BOOST_TEST(said_of(with("force_peak", 9, 1.2, spike)).empty());    // it falls
+  BOOST_TEST(said_of(with("force_peak", 1.2, 1.9, spike)).empty());  // too little to say
+  BOOST_TEST(said_of(with("force_peak", 8, 9, spike)).empty());      // it does not grow with 1/dt
+}
+
+BOOST_AUTO_TEST_CASE(a_body_that_moves_on_to_the_end_creeps) {
+  const auto said_with = [](double coarse, double fine, double share_of_run) {
+    Results grid = with("creep", coarse, fine, {});
+    CaseResult& result = grid.cases.front();
+    result.definition.scene.bodies.front().shape = Sphere{0.5};
+    const Instant last{share_of_run * result.definition.duration, 0, "displacement", fine, 0};
+    for (int i = 0; i < 2; ++i) result.cells[i].metrics["creep"].worst = last;
+    return said_of(grid);
+  };
+  const auto said = said_with(0.02, 0.01, 1);
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "10 mm from its place, at dt = 1/20 s"), said[0]);
+  BOOST_TEST(said_with(0.02, 1e-4, 1).empty());    // too little, at the finest step
+  BOOST_TEST(said_with(0.02, 0.01, 0.5).empty());  // it has settled
+}
+
 BOOST_AUTO_TEST_CASE(nothing_is_said_where_nothing_was_measured) { BOOST_TEST(said_of(sample_results()).empty()); }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -113,6 +113,16 @@ const std::vector<Refusal> kBadRelations = {
      "12:1: scene.contact: ",
      {"'ground' and 'ball' is given twice"}},
     {"[scene.contact_default]\nrestitution = -0.1", "10:15: scene.contact_default.restitution: ", {"found -0.1"}},
+    {"[scene.contact_default]\nrolling_friction = -1", "10:20: scene.contact_default.rolling_friction: ", {"found -1"}},
+    {"[[scene.contact]]\na = 'ball'\nb = 'ground'\ntorsional_friction = inf",
+     "12:22: scene.contact.torsional_friction: ",
+     {"found inf"}},
+    {"[[scene.contact]]\na = 'ball'\nb = 'ground'\ndamping = 1",
+     "12:11: scene.contact.damping: ",
+     {"without stiffness", "allowed: stiffness, too"}},
+    {"[[scene.contact]]\na = 'ball'\nb = 'ground'\nstiffness = 1e4\nrestitution = 0.5",
+     "13:15: scene.contact.restitution: ",
+     {"soft contact", "allowed: one of the two"}},
     {"[scene.contact_default]\nfrictoin = 1", "10:1: scene.contact_default.frictoin: unknown key", {"'friction'"}},
     // Forces.
     {"[[scene.force]]\nforce = [1, 0, 0]", "9:1: scene.force.body: missing", {}},
@@ -215,9 +225,18 @@ a = "ball"
 b = "cube"
 restitution = 1
 friction = "infinite"
+[[scene.contact]]
+a = "cube"
+b = "ground"
+rolling_friction = 0.02
 [scene.contact_default]
 restitution = 0.25
-friction = 0.5)");
+friction = 0.5
+rolling_friction = 0.01
+torsional_friction = 0.003)");
+  BOOST_TEST(scene.contact_law(2, 1).rolling_friction == 0.01);
+  BOOST_TEST(scene.contact_law(0, 2).rolling_friction == 0.02);
+  BOOST_TEST(scene.contact_law(0, 2).torsional_friction == 0.003);
   BOOST_TEST(scene.contact_default.restitution == 0.25);
   BOOST_TEST(scene.contact_law(2, 1).restitution == 0.25);
   BOOST_TEST(scene.contact_law(2, 1).friction == kInfiniteFriction);

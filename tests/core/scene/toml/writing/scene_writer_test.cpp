@@ -43,7 +43,10 @@ class Fields {
   void add(int number) { all_.push_back(std::to_string(number)); }
   void add(bool flag) { all_.emplace_back(flag ? "yes" : "no"); }
   void add(const Vec3& v) { add(v.x()), add(v.y()), add(v.z()); }
-  void add(const ContactLaw& law) { add(law.restitution), add(law.friction), add(law.collides); }
+  void add(const ContactLaw& law) {
+    add(law.restitution), add(law.friction), add(law.collides), add(law.rolling_friction), add(law.torsional_friction);
+    add(law.stiffness), add(law.damping);
+  }
   void add(const Body& body) {
     add(body.name), add(body.mass), add(body.position), add(body.orientation.vec()), add(body.orientation.w());
     add(body.velocity), add(body.angular_velocity), add(body.collides), add(body.fixed);
@@ -217,6 +220,8 @@ until = 2.5
 a = "ground"
 b = "ball"
 friction = 0.4
+rolling_friction = 0.02
+torsional_friction = 0.003
 [[scene.force]]
 body = "ball"
 force = [0.1, 0, 0]
