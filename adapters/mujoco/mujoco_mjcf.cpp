@@ -122,7 +122,10 @@ class Writer {
       if (body.collides) for_each_part(*body.shape, [&](const Shape&, const BodyPose&) { ++shapes; });
     }
     const std::size_t contacts = std::max<std::size_t>(100, 12 * shapes);
-    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, 6 * contacts + 7 * scene_.joints.size());
+    // A pyramid has twice as many edges as the contact has tangential directions: two, or five with condim 6. MuJoCo
+    // allots a dense matrix of so many rows, which is why a pile of 216 balls gets no more than it needs.
+    const bool resists = any_law(scene_, [](const ContactLaw& law) { return law.resists_turning(); });
+    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, (resists ? 10 : 4) * contacts + 7 * scene_.joints.size());
   }
 
   void write_meshes() {

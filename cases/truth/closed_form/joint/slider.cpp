@@ -57,6 +57,7 @@ class Sliding final : public BodyMotion {
     if (sprung.stiffness == 0) return;
     moving_.decay = decay_, moving_.square = sprung.stiffness / mass, moving_.velocity = velocity_;
     middle_ = sprung.rest + pull_ / moving_.square, moving_.start = -middle_;
+    if (!std::isfinite(sprung.end)) return;
     for (Extended t : moving_.turns()) {
       t = std::clamp<Extended>(t, 0, duration);
       if ((middle_ + moving_.at(t).offset) * -sprung.end <= -sprung.end * sprung.end)

@@ -255,8 +255,18 @@ void refuse_turning_friction(const Scene& scene, bool has_joints) {
                                   bounces ? "restitution" : "joints"));
 }
 
+// No impact adds energy (rebounds/impact_energy.h). That bound counts the bodies alone, and a rotor also has energy.
+void refuse_bouncing_rotors(const Scene& scene) {
+  const bool bounces = any_law(scene, [](const ContactLaw& law) { return law.restitution > 0; });
+  const bool has_rotors =
+      std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.armature > 0; });
+  if (bounces && has_rotors)
+    throw EngineFailure(FailureKind::unsupported, "contact=impulse has no restitution in a scene with armatures");
+}
+
 std::unique_ptr<ContactStepper> make_impulse_stepper(const Scene& scene, const ContactParts& parts) {
   refuse_turning_friction(scene, parts.joints != nullptr);
+  refuse_bouncing_rotors(scene);
   if (parts.joints) return make_jointed_impulse_stepper(scene, parts);
   return std::make_unique<ImpulseStepper>(scene, parts);
 }

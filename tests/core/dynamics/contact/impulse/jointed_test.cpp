@@ -190,4 +190,13 @@ BOOST_AUTO_TEST_CASE(limits_and_motors_hold_beside_contacts) {
   }
 }
 
+// The bound on an impact's energy counts the bodies alone, and a rotor has energy too.
+BOOST_AUTO_TEST_CASE(restitution_beside_armatures_is_refused) {
+  Scene scene = pendulum_at_wall(0.5);
+  scene.joints[0].armature = 0.1;
+  BOOST_CHECK_THROW(ContactRun(scene, "impulse"), EngineFailure);
+  scene.contact_default.restitution = 0;
+  BOOST_CHECK_NO_THROW(ContactRun(scene, "impulse"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
