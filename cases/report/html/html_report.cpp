@@ -144,7 +144,7 @@ std::string html_report(const Results& results) {
       "<noscript>This report needs JavaScript, which is off here. report.md has the same content as text."
       "</noscript></main>\n";
   add_data(page, "rigor-results", {{"encoding", "base64 of zlib of results.json"}, {"data", results_data(results)}});
-  constexpr std::size_t kWholePage = 3'900'000, kLeastPlayback = 500'000;  // characters
+  constexpr std::size_t kWholePage = 3'900'000, kLeastPlayback = 250'000;  // characters
   const std::size_t rest = page.size() + kPageScript.size() + kPageLicences.size();
   add_data(page, "rigor-playback", playbacks(results, std::max(kWholePage, rest + kLeastPlayback) - rest));
   page += "<script>";  // and nothing else in it: it has a hash
