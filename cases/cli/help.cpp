@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cases/report/console/layout.h"
+#include "cases/report/layout.h"
 
 namespace rigor {
 namespace {

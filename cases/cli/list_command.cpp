@@ -9,7 +9,7 @@
 #include "cases/cli/output.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/metrics/metric.h"
-#include "cases/report/console/layout.h"
+#include "cases/report/layout.h"
 #include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"

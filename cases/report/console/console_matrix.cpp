@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "cases/report/console/layout.h"
+#include "cases/report/layout.h"
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/report/wording/wording.h"

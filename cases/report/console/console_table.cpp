@@ -7,7 +7,7 @@
 #include <set>
 
 #include "cases/report/console/console_matrix.h"
-#include "cases/report/console/layout.h"
+#include "cases/report/layout.h"
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explained_error.h"
 #include "cases/report/wording/explanations/explanation.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/report/console/layout.h"
+#include "cases/report/layout.h"
 
 namespace rigor {
 namespace {

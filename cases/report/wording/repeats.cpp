@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cases/report/console/layout.h"
+#include "cases/report/layout.h"
 
 namespace rigor {
 namespace {

@@ -96,7 +96,11 @@ std::vector<JointOfFile> read_series(const TableReader& row, const Ends& ends, c
     axis.turns = own.at("type").choice({"hinge", "slider"}) == "hinge";
     axis.axis = own.at("axis").direction();
     if (axis.turns) axis.anchor = own.at("anchor").vector() + ends.offset;
-    if (!axis.turns && own.find("anchor")) own.at("anchor").refuse("a slider has no anchor; allowed: axis alone");
+    if (!axis.turns && own.find("anchor")) {
+      Keys others = keys;
+      std::erase(others, "anchor");
+      own.at("anchor").refuse(fmt::format("a slider has no anchor; allowed: {}", fmt::join(others, ", ")));
+    }
     Joint part;
     part.a = whole.a, part.b = whole.b;
     if (const auto name = own.find("name")) part.name = name->text() + ends.copy;

@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
     motor.effort = 1;
     if (damping == 0) loop.motors = {motor, motor, motor}, loop.motors[1].joint = 2, loop.motors[2].joint = 3;
     BOOST_CHECK_EXCEPTION(load_run("mujoco", loop), EngineFailure, [](const EngineFailure& failure) {
-      return std::string(failure.what()).find("no spring, damper, limit or motor") != std::string::npos;
+      return std::string(failure.what()).find("no spring, damper, limit, motor, armature or coupling") != std::string::npos;
     });
   }
   Scene chain;

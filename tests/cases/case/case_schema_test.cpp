@@ -106,6 +106,8 @@ Json case_with(const Path& path, const Json& table) {
     const bool is_array = key.ends_with("[]");
     place = &(*place)[is_array ? key.substr(0, key.size() - 2) : key];
     if (is_array) place = &(*place)[0];
+    // Axes stand in a compound joint alone, which needs its bodies.
+    if (key == "joint[]" && path.back() != key) *place = {{"type", "compound"}, {"a", "world"}, {"b", "a"}};
   }
   for (const auto& [key, value] : table.items()) (*place)[key] = value;
   return out;

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "cases/report/console/layout.h"
+#include "cases/report/layout.h"
 #include "tests/cases/limit_as.h"
 #include "tests/cases/report/sample_results.h"
 

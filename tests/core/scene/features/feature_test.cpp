@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(a_pair_of_shapes_has_one_feature_in_either_order) {
   BOOST_TEST(word_of(contact_feature(plane, box)) == "contact:box-plane");
   BOOST_TEST((contact_feature(box, plane) == contact_feature<Plane, Box>()));
   BOOST_TEST((contact_feature<Box, Box>() != contact_feature<Box, Plane>()));
-  BOOST_TEST((joint_feature(JointType(HingeJoint{})) == joint_feature<HingeJoint>()));
+  BOOST_TEST((joint_feature(JointType(HingeJoint{Vec3::Zero(), Vec3::UnitZ()})) == joint_feature<HingeJoint>()));
   BOOST_TEST(word_of(joint_feature<HingeJoint>()) == "joint:hinge");
 }
 

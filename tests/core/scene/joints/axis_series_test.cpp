@@ -75,7 +75,7 @@ SeriesEnd end_of(const Eigen::Isometry3d& pose, const Vec6d& v) {
 BodyPose body_pose(const Eigen::Isometry3d& pose) { return {pose.translation(), Quat(pose.linear())}; }
 
 std::vector<std::vector<SeriesAxis>> chains() {
-  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY();
   const SeriesAxis slide_x{false, Vec3::Zero(), x}, slide_z{false, Vec3::Zero(), Vec3(0.1, 0.2, 1).normalized()},
       slide_y{false, Vec3::Zero(), y}, hinge_x{true, {0.1, 0.2, 0}, x}, hinge_y{true, {0.3, -0.1, 0.2}, y},
       hinge_z{true, {-0.2, 0.1, 0.4}, Vec3(0.3, 0.2, 1).normalized()};

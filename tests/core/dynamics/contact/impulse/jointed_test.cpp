@@ -6,6 +6,7 @@
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/energy.h"
 #include "core/dynamics/model/joint_coordinate.h"
+#include "core/engine/engine_failure.h"
 #include "tests/core/dynamics/contact/contact_runs.h"
 #include "tests/core/dynamics/joints/jointed_run.h"
 #include "tests/scenes.h"
@@ -194,9 +195,9 @@ BOOST_AUTO_TEST_CASE(limits_and_motors_hold_beside_contacts) {
 BOOST_AUTO_TEST_CASE(restitution_beside_armatures_is_refused) {
   Scene scene = pendulum_at_wall(0.5);
   scene.joints[0].armature = 0.1;
-  BOOST_CHECK_THROW(ContactRun(scene, "impulse"), EngineFailure);
+  BOOST_CHECK_THROW(test::ContactRun(scene, "impulse"), EngineFailure);
   scene.contact_default.restitution = 0;
-  BOOST_CHECK_NO_THROW(ContactRun(scene, "impulse"));
+  BOOST_CHECK_NO_THROW(test::ContactRun(scene, "impulse"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

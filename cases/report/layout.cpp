@@ -1,4 +1,4 @@
-#include "cases/report/console/layout.h"
+#include "cases/report/layout.h"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
