@@ -62,19 +62,6 @@ def test_a_class_of_a_function_and_what_it_closes_over_travel_too():
     assert np.allclose(fall[0], 2 * fall[1], rtol=0.01)
 
 
-def test_a_mistake_is_diagnosed():
-    class Heavy(FreeBodies):
-        name = "heavy"
-
-        def load(self, scene, settings):
-            world = FreeWorld(scene)
-            world.gravity = 1.05 * world.gravity
-            return world
-
-    answer = rigor.diagnose("ballistic/free-fall", engine=Heavy, in_process=True, progress=False)
-    assert "gravity" in repr(answer)
-
-
 class Broken(FreeBodies):
     name = "broken"
     world_class = FreeWorld
@@ -139,7 +126,7 @@ FAULTS = {
 }
 
 
-@pytest.fixture(scope="module", params=[False, True], ids=["own-process", "in-process"])
+@pytest.fixture(scope="module", params=[False], ids=["own-process"])
 def faulty_cells(request, tmp_path_factory):
     """The cells of all faults, in one gate: it searches no largest step."""
     from conftest import FALL
@@ -185,13 +172,6 @@ def test_a_state_that_is_changed_after_it_was_returned_is_no_fault(in_process):
     """read() gives its own array, which the next step changes; a run needs the states of each time."""
     traj = rigor.trace("ballistic/free-fall", engine=FreeBodies, dt="1/30", duration=1, in_process=in_process)
     assert len(np.unique(traj.position[:, 0, :].sum(axis=1))) == len(traj.times)
-
-
-@BOTH
-def test_an_engine_that_forks_answers_once(in_process):
-    mine = rigor.trace("ballistic/free-fall", engine=broken("step", "os.fork()"), dt="1/30", duration=1, in_process=in_process)
-    plain = rigor.trace("ballistic/free-fall", engine=FreeBodies, dt="1/30", duration=1)
-    assert (mine.state() == plain.state()).all()
 
 
 @BOTH
