@@ -43,7 +43,7 @@ std::vector<Fault> joint_faults() {
                  [](Scene& s) {
                    for (Coupling& coupling : s.couplings) coupling.ratio = 1 / coupling.ratio;
                  }),
-      on_loading("a joint left out", [](Scene& s) { s.joints.clear(); }),
+      on_loading("a joint left out", [](Scene& s) { s.joints.clear(), s.couplings.clear(), s.motors.clear(); }),
   };
 }
 

@@ -61,14 +61,14 @@ struct ForJoints : Cases... {
 template <typename... Cases>
 ForJoints(Cases...) -> ForJoints<Cases...>;
 
-// A case of ForJoints for the types that an engine lacks. Features keep these away from it; the result is empty.
-template <typename Result, typename... Types>
-struct LackingJoints : LackingJoints<Result, Types>... {
-  using LackingJoints<Result, Types>::operator()...;
-};
+// Cases of ForJoints for the types that an engine lacks. Features keep these away from it; the result is empty.
 template <typename Result, typename Type>
-struct LackingJoints<Result, Type> {
+struct LackingJoint {
   Result operator()(const Type&) const { return Result(); }
+};
+template <typename Result, typename... Types>
+struct LackingJoints : LackingJoint<Result, Types>... {
+  using LackingJoint<Result, Types>::operator()...;
 };
 
 }  // namespace rigor

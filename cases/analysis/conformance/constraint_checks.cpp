@@ -12,7 +12,7 @@ namespace rigor::conformance {
 namespace {
 
 constexpr double kStep = 1.0 / 240;  // s
-// m and rad. As shipped, engines let joints open by some millimetres and bodies of a metre sink by up to 2 cm. A wrong
+// m and rad. Engines as shipped let joints open by some millimetres and bodies of a metre sink by up to 2 cm. A wrong
 // anchor, axis or size makes an error of tenths.
 constexpr double kSlack = 0.03;
 

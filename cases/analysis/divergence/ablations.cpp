@@ -24,6 +24,7 @@ class Ablater {
   std::vector<Ablation> all() {
     add_contacts();
     for (std::size_t k = 0; k < scene_.joints.size(); ++k) add_joint(k);
+    for (std::size_t c = 0; c < scene_.couplings.size(); ++c) add_coupling(c);
     add_drives();
     for (std::size_t k = 0; k < scene_.springs.size(); ++k) add_spring(k);
     for (std::size_t k = 0; k < scene_.forces.size(); ++k) add_force(k);
@@ -155,8 +156,17 @@ class Ablater {
       s.joints.erase(s.joints.begin() + static_cast<long>(k));
       const int own = static_cast<int>(k);
       std::erase_if(s.motors, [own](const Motor& motor) { return motor.joint == own; });
+      std::erase_if(s.couplings, [own](const Coupling& row) { return row.joint == own || row.to == own; });
       for (Motor& motor : s.motors) motor.joint -= motor.joint > own;
+      for (Coupling& row : s.couplings) row.joint -= row.joint > own, row.to -= row.to > own;
     });
+  }
+
+  // It passes on differences as the constraint of a joint does.
+  void add_coupling(std::size_t c) {
+    const Joint& joint = scene_.joints[static_cast<std::size_t>(scene_.couplings[c].joint)];
+    add(scene_.coupling_name(c), "", kJoint, joint.a, joint.b,
+        [c](Scene& s) { s.couplings.erase(s.couplings.begin() + static_cast<long>(c)); });
   }
 
   // The change of a joint's coordinate in the step.

@@ -14,7 +14,7 @@ namespace rigor {
 struct Ablation {
   std::string what;    // "the contact of 'ball' and 'ground'"
   std::string detail;  // what happens there, with its numbers: "begins: the gap goes from 1e-3 m to -2e-4 m"; or ""
-  // Of two parts that explain a difference alike the one with the smaller rank is named: friction before its contact.
+  // If two parts explain a difference equally, the one with the smaller rank is named: friction before its contact.
   int rank = 0;
   // Without a joint a body is cut off from differences that enter elsewhere. It explains a difference only if that of
   // all bodies vanishes.

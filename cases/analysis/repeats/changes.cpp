@@ -89,8 +89,9 @@ std::vector<ChangedRun> with_lanes(const RepeatedRun& run, std::string& why_not)
 
 std::vector<ChangedRun> in_another_order(const RepeatedRun& run, std::string& why_not) {
   const Scene& scene = run.scene;
-  const std::size_t most = std::max({scene.bodies.size(), scene.joints.size(), scene.springs.size(),
-                                     scene.motors.size(), scene.contact_pairs.size(), scene.forces.size()});
+  const std::size_t most =
+      std::max({scene.bodies.size(), scene.joints.size(), scene.couplings.size(), scene.springs.size(),
+                scene.motors.size(), scene.contact_pairs.size(), scene.forces.size()});
   std::vector<ChangedRun> runs;
   if (most < 2) {
     why_not = "the scene has no two rows of a kind";

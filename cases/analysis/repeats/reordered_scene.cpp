@@ -18,6 +18,20 @@ std::vector<std::size_t> shuffled(std::size_t size, std::mt19937_64& random) {
   return order;
 }
 
+// Of joints. The axes of a compound joint stay behind it.
+std::vector<std::size_t> shuffled_joints(const std::vector<Joint>& joints, std::mt19937_64& random) {
+  std::vector<std::size_t> firsts;
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (!is_axis_of_compound(joints[k])) firsts.push_back(k);
+  std::vector<std::size_t> order;
+  for (const std::size_t first : shuffled(firsts.size(), random)) {
+    std::size_t k = firsts[first];
+    do order.push_back(k++);
+    while (k < joints.size() && is_axis_of_compound(joints[k]));
+  }
+  return order;
+}
+
 template <typename Row>
 std::vector<Row> in_order(const std::vector<Row>& rows, const std::vector<std::size_t>& order) {
   std::vector<Row> out;
@@ -43,6 +57,12 @@ void renumber_bodies(Scene& scene, const Renumber& number) {
   for (TimedForce& force : scene.forces) force.body = number(force.body);
 }
 
+// In the rows that name joints.
+void renumber_joints(Scene& scene, const Renumber& number) {
+  for (Motor& motor : scene.motors) motor.joint = number(motor.joint);
+  for (Coupling& coupling : scene.couplings) coupling.joint = number(coupling.joint), coupling.to = number(coupling.to);
+}
+
 template <typename Row>
 void append(std::vector<Row>& to, const std::vector<Row>& rows) {
   to.insert(to.end(), rows.begin(), rows.end());
@@ -53,16 +73,17 @@ void append(std::vector<Row>& to, const std::vector<Row>& rows) {
 ReorderedScene reordered(const Scene& scene, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   ReorderedScene out{scene, {}};
-  const auto bodies = shuffled(scene.bodies.size(), random), joints = shuffled(scene.joints.size(), random);
+  const auto bodies = shuffled(scene.bodies.size(), random), joints = shuffled_joints(scene.joints, random);
   out.places = inverse_of(bodies);
   renumber_bodies(out.scene, [&](int body) {
     return body == kWorld ? kWorld : static_cast<int>(out.places[static_cast<std::size_t>(body)]);
   });
   const std::vector<std::size_t> joint_places = inverse_of(joints);
-  for (Motor& motor : out.scene.motors)
-    motor.joint = static_cast<int>(joint_places[static_cast<std::size_t>(motor.joint)]);
+  renumber_joints(out.scene,
+                  [&](int joint) { return static_cast<int>(joint_places[static_cast<std::size_t>(joint)]); });
   out.scene.bodies = in_order(out.scene.bodies, bodies), out.scene.joints = in_order(out.scene.joints, joints);
   out.scene.springs = in_order(out.scene.springs, shuffled(scene.springs.size(), random));
+  out.scene.couplings = in_order(out.scene.couplings, shuffled(scene.couplings.size(), random));
   out.scene.motors = in_order(out.scene.motors, shuffled(scene.motors.size(), random));
   out.scene.contact_pairs = in_order(out.scene.contact_pairs, shuffled(scene.contact_pairs.size(), random));
   out.scene.forces = in_order(out.scene.forces, shuffled(scene.forces.size(), random));
@@ -121,11 +142,12 @@ CopiedScene copied(const Scene& scene, std::size_t copies, const Vec3& offset) {
       return body == kWorld ? kWorld : static_cast<int>(places[static_cast<std::size_t>(body)]);
     });
     const int joints = static_cast<int>(out.scene.joints.size());
-    for (Motor& motor : copy.motors) motor.joint += joints;
+    renumber_joints(copy, [&](int joint) { return joint + joints; });
     for (Joint& joint : copy.joints) {
       if (!joint.name.empty()) joint.name += fmt::format("-{}", k);
     }
     append(out.scene.joints, copy.joints), append(out.scene.springs, copy.springs);
+    append(out.scene.couplings, copy.couplings);
     append(out.scene.motors, copy.motors), append(out.scene.forces, copy.forces);
     append(out.scene.contact_pairs, copy.contact_pairs);
     out.places.push_back(std::move(places));

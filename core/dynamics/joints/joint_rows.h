@@ -35,9 +35,9 @@ struct JointRow {  // all rows of a joint, or of a coupling
   int end[kMostEnds] = {kWorld, kWorld, kWorld, kWorld};   // the bodies at its ends
   int body[kMostEnds] = {kWorld, kWorld, kWorld, kWorld};  // those of them that can move, or kWorld
   Vec6 lever = Vec6::Ones();                               // of each row: converts its gap to m
-  double J[kMostEnds][6 * kMostRows] = {},
-                          Y[kMostEnds][6 * kMostRows] = {};  // most_rows x 6, column by column; Y = J M⁻¹
-  Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();              // zero beyond the rows in use
+  double J[kMostEnds][6 * kMostRows] = {};                 // most_rows x 6, column by column
+  double Y[kMostEnds][6 * kMostRows] = {};                 // J M⁻¹
+  Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();            // zero beyond the rows in use
 
   std::optional<JointCoordinate> coordinate = {};  // if it has limits, a motor of given speed or an armature
   CoordinateRow row = CoordinateRow::none;

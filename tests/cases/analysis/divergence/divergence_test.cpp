@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "tests/cases/analysis/divergence/changed_engine.h"
+#include "tests/core/dynamics/joints/jointed_run.h"
 #include "tests/scenes.h"
 
 using namespace rigor;
@@ -73,7 +74,7 @@ Scene sliding_box() {
 
 }  // namespace
 
-BOOST_FIXTURE_TEST_SUITE(cases_analysis_divergence, Planted)
+BOOST_FIXTURE_TEST_SUITE(cases_analysis_divergence_divergence, Planted)
 
 BOOST_AUTO_TEST_CASE(the_same_run_never_parts) {
   const Divergence found = changed(coupled_bodies(0), 1, 1.0 / 100, [](Scene&) {});
@@ -222,6 +223,16 @@ BOOST_AUTO_TEST_CASE(what_an_engine_lacks_is_refused_with_the_feature) {
   Scene scene = sliding_box();
   BOOST_CHECK_EXCEPTION(diverge(scene, 1, "core", "simbody", 1.0 / 100), InputError,
                         [](const InputError& error) { return std::string(error.what()).find("simbody") == 0; });
+}
+
+// The restarted scene would have other coordinates, and a cause would be named that is none.
+BOOST_AUTO_TEST_CASE(compound_joints_are_refused) {
+  const Planted planted;
+  BOOST_CHECK_EXCEPTION(
+      planted.diverge(suite_scene("joints/compound-root"), 1, "core:rk4", "core:velocity-verlet", 0.01), InputError,
+      [](const InputError& error) {
+        return std::string(error.what()).find("compound joints cannot restart") != std::string::npos;
+      });
 }
 
 BOOST_AUTO_TEST_SUITE_END()

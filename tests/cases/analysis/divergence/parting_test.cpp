@@ -38,7 +38,7 @@ std::optional<Parting> parted(const StateSeries& b, const std::string& bound, co
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_parting)
+BOOST_AUTO_TEST_SUITE(cases_analysis_divergence_parting)
 
 BOOST_AUTO_TEST_CASE(the_first_sample_beyond_the_bound_counts) {
   const auto found = parted(drifting({0, -0.4e-3, 0}, Vec3::Zero()), "1mm");

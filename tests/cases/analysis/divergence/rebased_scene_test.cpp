@@ -64,7 +64,7 @@ Scene driven_cart() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_rebased_scene)
+BOOST_AUTO_TEST_SUITE(cases_analysis_divergence_rebased_scene)
 
 // Anchors that close again and renormalised orientations leave roundings, which a second amplifies little.
 BOOST_AUTO_TEST_CASE(joints_springs_drives_and_forces_go_on_from_any_state) {

@@ -7,6 +7,7 @@
 #include "cases/analysis/repeats/hash_record.h"
 #include "cases/analysis/repeats/reordered_scene.h"
 #include "core/base/error.h"
+#include "tests/core/dynamics/joints/jointed_run.h"
 #include "tests/folder.h"
 #include "tests/scenes.h"
 
@@ -84,7 +85,7 @@ std::string differing(const RepeatReport& report) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(cases_analysis_repeats)
+BOOST_AUTO_TEST_SUITE(cases_analysis_repeats_repeats)
 
 BOOST_AUTO_TEST_CASE(an_engine_that_nothing_disturbs_repeats) {
   const RepeatReport report = disturbed([](const Scene&) { return 0; });
@@ -192,6 +193,40 @@ BOOST_AUTO_TEST_CASE(hashes_go_through_a_file_and_others_are_refused) {
   other = own, other.hashes.pop_back(), refuses(other, "1 steps");
   for (const char* text : {"", "no JSON\n", "{}\n", "{\"rigor_hashes\":2}\n", "{\"rigor_hashes\":1}\n"})
     BOOST_CHECK_THROW(read_hash_records(written(text)), InputError);
+}
+
+// An arm with a gear, and a body on a compound joint beside a hinge. A lost or misplaced row would move them by metres.
+BOOST_AUTO_TEST_CASE(couplings_and_compound_joints_keep_their_joints_in_another_order_and_in_copies) {
+  Scene rooted = suite_scene("joints/compound-root");
+  Body rod = body("rod", 1, 0.1 * Vec3::Ones(), {5, 0, 0});
+  rooted.joints.insert(rooted.joints.begin(), {.a = kWorld, .b = 1, .type = HingeJoint{{5, 0, 1}, Vec3::UnitY()}});
+  for (Motor& motor : rooted.motors) ++motor.joint;
+  rooted.bodies.push_back(rod);
+  for (const Scene& scene : {suite_scene("transmissions/geared-arm"), rooted}) {
+    const auto apart = [&](const Scene& other, const std::vector<std::size_t>& places, const Vec3& offset) {
+      const BodyTable own = state_after(scene, "dormand-prince", 0.01, 1),
+                      moved = state_after(other, "dormand-prince", 0.01, 1);
+      double most = 0;
+      for (std::size_t i = 0; i < places.size(); ++i)
+        most = std::max(most, (moved.columns().position(static_cast<int>(places[i])) - offset -
+                               own.columns().position(static_cast<int>(i)))
+                                  .norm());
+      return most;
+    };
+    bool is_moved = false;
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+      const ReorderedScene other = reordered(scene, seed);
+      is_moved |= other.scene.joints[0].type.index() != scene.joints[0].type.index() ||
+                  other.scene.joints[0].name != scene.joints[0].name;
+      BOOST_TEST(apart(other.scene, other.places, Vec3::Zero()) < 1e-9);  // the method's tolerance is 1e-12
+    }
+    BOOST_TEST(is_moved);
+    const Vec3 offset(0, 64, 0);
+    const CopiedScene copies = copied(scene, 3, offset);
+    BOOST_TEST(copies.scene.couplings.size() == 3 * scene.couplings.size());
+    for (std::size_t k = 0; k < 3; ++k)
+      BOOST_TEST(apart(copies.scene, copies.places[k], static_cast<double>(k) * offset) < 1e-9);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

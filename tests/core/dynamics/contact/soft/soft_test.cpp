@@ -27,7 +27,7 @@ Scene ball_before_wall(double damping) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_soft)
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_soft_soft)
 
 BOOST_AUTO_TEST_CASE(a_ball_leaves_a_wall_with_the_speed_of_the_closed_form) {
   for (const double damping : {0.0, 10.0, 60.0, 150.0}) {
