@@ -82,7 +82,7 @@ class DartWorld : public World, public ReportsReactions, public ReportsContacts 
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
-  // What passes to a body is worked out before DART's constraints, which loops are, get their impulses.
+  // DART works out what passes to a body before its constraints get their impulses. Loops are constraints.
   Capabilities capabilities() override { return {.reactions = this, .contacts = this}; }
   void ask_for_reactions() override { is_asked_ = !has_loops_; }
   std::vector<ReportedReaction> reactions() const override;

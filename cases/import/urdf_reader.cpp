@@ -297,7 +297,7 @@ class UrdfReader {
                     : "has mass and no joint to the world: it is free. A fixed joint to a link 'world' would hold it"));
   }
 
-  // Of the links on fixed joints from the root on: whether any has mass, and how many joints move against them.
+  // Looks at the links that fixed joints hold to the root: whether any has mass, and how many joints move against them.
   std::pair<bool, std::size_t> base_of(std::size_t root, const std::vector<std::vector<std::size_t>>& below) const {
     std::vector<std::size_t> waiting = {root};
     std::set<std::size_t> seen;

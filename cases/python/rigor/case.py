@@ -84,7 +84,7 @@ class Case:
             raise InputError(f"{text}: there is no such file")
         words = [f"--{name.replace('_', '-')}" for name, is_on in flags.items() if is_on]
         made = cls._of_file(text, [*words, *([] if keyframe is None else ["--keyframe", keyframe])])
-        # From here on it is the case file that the import makes: the flags need not be given again.
+        # The case is now the case file that the import makes, so the flags need not be given again.
         made._file, made.name = None, pathlib.Path(text).stem
         return made
 
