@@ -3,7 +3,8 @@
 //   u32 keys (0: no motion here), their samples; f32 lowest x y z, f32 extent x y z; for each of x, y, z and the
 //   quaternion's x, y, z (its w >= 0), for each body, for each key: u16, over the extent or over -1..1;
 //   u32 points, their samples; u8 series, u8 its name's number for each; for each series and point: u16, the upper
-//   half of a float32, not a number where the series has ended.
+//   half of a float32, not a number where the series has ended; then the contact forces at these points
+//   (force_playback.h).
 // All u16 stand as Bytes::add_differences; samples are two such lists, the lower and the upper halves of u32.
 #include "cases/report/html/playback.h"
 
@@ -12,18 +13,15 @@
 
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/report/html/motion.h"
-#include "cases/report/json/packing.h"
+#include "cases/report/html/packed_series.h"
 #include "cases/report/html/thinning.h"
 #include "core/dynamics/model/energy.h"
 
 namespace rigor {
 namespace {
 
-constexpr double kLinearSeen = 5e-3;       // of a series' range: a pixel of a plot
-constexpr double kDecadesSeen = 0.04;      // of a logarithmic plot: likewise
-constexpr double kNoise = 1e-12;           // of a series in any unit: smaller values are rounding without shape
-constexpr std::size_t kMostKeys = 6000;    // of a motion
-constexpr std::size_t kMostPoints = 1500;  // of the series
+constexpr std::size_t kMostKeys = 6000;              // of a motion
+constexpr std::size_t kMostPoints = 1500;            // of the series
 constexpr std::size_t kMost = 300000, kLeast = 200;  // characters of a packing
 constexpr double kOfAllRuns = 6e6, kEvenShares = 6;  // characters; a number of even shares that a run may request
 constexpr double kCoarser = 0.7;                     // of the keys and points, from one packing to the next
@@ -34,19 +32,6 @@ bool is_main(const NamedSeries& series) {
                                    "joint_gap",     "linear_momentum_drift",  "orientation_error",
                                    "position_error"};
   return std::find(std::begin(kMain), std::end(kMain), series.name) != std::end(kMain);
-}
-
-void add_samples(Bytes& bytes, const std::vector<std::size_t>& samples) {
-  std::vector<std::uint16_t> low, high;
-  for (const std::size_t n : samples) {
-    low.push_back(static_cast<std::uint16_t>(n)), high.push_back(static_cast<std::uint16_t>(n >> 16));
-  }
-  bytes.add_u32(static_cast<std::uint32_t>(samples.size()));
-  bytes.add_differences(low), bytes.add_differences(high);
-}
-
-std::uint16_t quantised(double share) {
-  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0, 1.0)));
 }
 
 void add_motion(Bytes& bytes, const Motion& motion, const std::vector<std::size_t>& keys) {
@@ -73,79 +58,6 @@ void add_motion(Bytes& bytes, const Motion& motion, const std::vector<std::size_
   bytes.add_differences(values);
 }
 
-// The series of one run, for thinning: all at the same samples.
-class SeriesSet {
- public:
-  explicit SeriesSet(std::vector<NamedSeries> all) : series_(std::move(all)) {
-    for (const NamedSeries& series : series_) {
-      double largest = kNoise;
-      for (const double value : series.values) {
-        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-      }
-      const double floor = std::max(kNoise, 1e-6 * largest);
-      Seen& seen = seen_.emplace_back();
-      for (const double value : series.values) {
-        seen.linear.push_back(value / (largest * kLinearSeen));
-        seen.decades.push_back(std::log10(std::max(std::abs(value), floor)) / kDecadesSeen);
-      }
-      count_ = std::max(count_, series.values.size());
-    }
-  }
-
-  std::size_t count() const { return count_; }
-
-  // Series by series, because each is contiguous.
-  KeptSample worst_between(std::size_t a, std::size_t b) const {
-    std::vector<double> shares(b - a - 1), off(b - a - 1, 0.0);  // of the samples from a + 1 on
-    for (std::size_t k = 0; k < shares.size(); ++k) shares[k] = static_cast<double>(k + 1) / static_cast<double>(b - a);
-    for (const Seen& seen : seen_) {
-      const std::size_t length = seen.linear.size();
-      if (b < length) {
-        raise_to_deviations(seen.linear, a, b, shares, off), raise_to_deviations(seen.decades, a, b, shares, off);
-      } else if (length >= a + 2) {  // it ends in this stretch, and its end is kept
-        off[length - a - 2] = std::numeric_limits<double>::max();
-      }
-    }
-    KeptSample worst{a, 0};
-    for (std::size_t k = 0; k < off.size(); ++k) {
-      if (off[k] > worst.deviation) worst = {a + 1 + k, off[k]};
-    }
-    return worst;
-  }
-
-  void add_to(Bytes& bytes, const std::vector<std::size_t>& points) const {
-    add_samples(bytes, points);
-    bytes.add_u8(static_cast<std::uint8_t>(series_.size()));
-    for (const NamedSeries& series : series_) {
-      const auto& names = series_names();
-      bytes.add_u8(static_cast<std::uint8_t>(std::find(names.begin(), names.end(), series.name) - names.begin()));
-    }
-    std::vector<std::uint16_t> values;
-    for (const NamedSeries& series : series_) {
-      for (const std::size_t n : points)
-        values.push_back(half_of_float(n < series.values.size() ? series.values[n] : NAN));
-    }
-    bytes.add_differences(values);
-  }
-
- private:
-  static void raise_to_deviations(const std::vector<double>& values, std::size_t a, std::size_t b,
-                                  const std::vector<double>& shares, std::vector<double>& off) {
-    const double first = values[a], last = values[b];
-    const double* between = &values[a] + 1;
-    for (std::size_t k = 0; k < off.size(); ++k)
-      off[k] = std::max(off[k], std::abs(between[k] - (1 - shares[k]) * first - shares[k] * last));
-  }
-
-  // A series on the two scales of a plot, in units of the smallest visible difference.
-  struct Seen {
-    std::vector<double> linear, decades;
-  };
-  std::vector<NamedSeries> series_;
-  std::vector<Seen> seen_;
-  std::size_t count_ = 0;
-};
-
 NamedSeries energy_change(std::vector<double> energies, double scale) {
   NamedSeries series{kEnergyChange, std::move(energies)};
   for (std::size_t n = series.values.size(); n-- > 0;) series.values[n] -= series.values.front();
@@ -159,6 +71,7 @@ class Packer {
   Packer(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth, std::vector<NamedSeries> named)
       : trajectory_(trajectory),
         motion_(scene, trajectory, truth),
+        forces_(trajectory),
         is_like_truth_(motion_.is_like_truth()),
         bodies_(scene.bodies.size()) {
     if (!is_like_truth_) candidates_ = motion_.candidates();
@@ -167,7 +80,7 @@ class Packer {
                            [&](std::size_t n, std::size_t a, std::size_t b) { return poses.deviation(n, a, b); });
     std::vector<NamedSeries> main;
     std::copy_if(named.begin(), named.end(), std::back_inserter(main), is_main);
-    all_ = ranked(std::move(named)), main_ = ranked(std::move(main));
+    ranked_.push_back(ranked(std::move(named))), ranked_.push_back(ranked(std::move(main)));
   }
 
   Packings packings(std::size_t limit) const {
@@ -180,9 +93,9 @@ class Packer {
       if (fits == 1 && is_shorter) found.push_back(std::move(text));
       return fits;
     };
-    add(all_, 1);
-    for (double share = 1; share * std::max(keys_.size(), main_.points.size()) >= 1;) {
-      share *= std::min(kCoarser, add(main_, share));
+    add(ranked_[0], 1);
+    for (double share = 1; share * std::max(keys_.size(), ranked_[1].points.size()) >= 1;) {
+      share *= std::min(kCoarser, add(ranked_[1], share));
       if (!found.empty() && found.back().size() <= kLeast) break;
     }
     return found;
@@ -190,12 +103,12 @@ class Packer {
 
  private:
   struct Ranked {
-    SeriesSet series{{}};
+    SeriesSet series;
     std::vector<KeptSample> points;
   };
 
-  static Ranked ranked(std::vector<NamedSeries> named) {
-    Ranked out{SeriesSet(std::move(named)), {}};
+  Ranked ranked(std::vector<NamedSeries> named) const {
+    Ranked out{SeriesSet(std::move(named), forces_), {}};
     out.points = ranked_samples(out.series.count(), kMostPoints, [&](std::size_t first, std::size_t last) {
       return out.series.worst_between(first, last);
     });
@@ -223,11 +136,12 @@ class Packer {
 
   const Trajectory& trajectory_;
   Motion motion_;
+  ForcePlayback forces_;
   bool is_like_truth_;
   std::size_t bodies_;
   std::vector<std::size_t> candidates_;
   std::vector<KeptSample> keys_;
-  Ranked all_, main_;
+  std::vector<Ranked> ranked_;  // all series, then the main ones
 };
 
 Packings packed(const Scene& scene, const Trajectory& trajectory, const TruthSamples* truth,
@@ -259,15 +173,6 @@ const std::string& finest_within(const Packings& packings, double size) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& series_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = {kEnergyChange};
-    for (const MetricRow& row : metrics()) all.push_back(row.name);
-    return all;
-  }();
-  return names;
-}
 
 Packings packed_run(const JudgedRun& run, const std::vector<NamedSeries>& series, double largest_kinetic_energy,
                     std::size_t limit) {

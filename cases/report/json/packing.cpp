@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -41,6 +42,10 @@ std::uint16_t half_of_float(double value) {
   std::uint32_t bits;
   std::memcpy(&bits, &number, sizeof bits);
   return static_cast<std::uint16_t>((bits + 0x8000u) >> 16);
+}
+
+std::uint16_t quantised(double share) {
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0, 1.0)));
 }
 
 std::string base64(const std::string& bytes) {

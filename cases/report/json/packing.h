@@ -25,6 +25,9 @@ class Bytes {
 // The upper half of a float32: 8 bits of mantissa, which is 0.4 % and enough for a plot. Rounded to nearest.
 std::uint16_t half_of_float(double value);
 
+// 0 to 65535 for 0 to 1; what lies beyond is cut.
+std::uint16_t quantised(double share);
+
 std::string base64(const std::string& bytes);
 std::string deflated(const std::string& bytes);  // as zlib writes it (RFC 1950)
 

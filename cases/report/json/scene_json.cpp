@@ -45,7 +45,9 @@ Json json_of(const Scene& scene) {
                {"bodies", Json::array()},
                {"springs", rows("spring")},
                {"joints", rows("joint")},
-               {"forces", rows("force")}};
+               {"forces", rows("force")},
+               {"contact_default", written.at("contact_default")},
+               {"contacts", rows("contact")}};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     json["bodies"].push_back(drawn_body_json(scene.bodies[i], written.at("body")[i]));
   for (Json& force : json["forces"]) force.emplace("until", nullptr);  // null: to the end

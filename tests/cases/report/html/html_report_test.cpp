@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "cases/report/json/packing.h"
 #include "cases/report/html/playback.h"
 #include "cases/report/json/json_report.h"
+#include "cases/report/json/packing.h"
 #include "cases/report/reports.h"
 #include "tests/cases/report/html/unpacking.h"
 #include "tests/cases/report/sample_results.h"
@@ -123,6 +123,19 @@ BOOST_AUTO_TEST_CASE(the_programs_own_report_works_in_a_browser, *boost::unit_te
   BOOST_TEST(is_valid(out + "/results.json", folder));
   BOOST_TEST(succeeds("node " + kHere + "recompute_test.mjs " + RIGOR_PROGRAM + " " + out, folder));
   BOOST_TEST(opens_well("page_test.mjs", folder, out + "/report.html", out + "/results.json", "report"));
+}
+
+BOOST_AUTO_TEST_CASE(contact_forces_are_drawn_and_plotted) {
+  Folder folder;
+  const std::string out = (folder.path / "out").string();
+  BOOST_TEST_REQUIRE(
+      succeeds(std::string(RIGOR_PROGRAM) +
+                   " run forces-of-contact/box-at-rest springs/fixed-spring --dt 1/30 --dt 1/240 --engine "
+                   "ode --engine bullet --jobs 2 --out " +
+                   out,
+               folder));
+  BOOST_TEST(is_valid(out + "/results.json", folder));
+  BOOST_TEST(opens_well("force_page_test.mjs", folder, out + "/report.html", out + "/results.json", "forces"));
 }
 
 BOOST_AUTO_TEST_CASE(names_that_would_do_harm_and_runs_of_every_ending_are_shown) {

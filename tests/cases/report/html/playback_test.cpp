@@ -133,6 +133,49 @@ BOOST_AUTO_TEST_CASE(a_run_that_leaves_the_picture_is_shown_until_then) {
   for (const Vec3& position : page.positions) BOOST_TEST(position.norm() < 200);
 }
 
+// A ball that rests on two points of body 1, which an engine tells in either order; the force jumps once.
+BOOST_AUTO_TEST_CASE(contact_forces_are_the_resultants_of_pairs_and_keep_their_spikes) {
+  const Scene scene = one_ball();
+  Trajectory run = bouncing(2, 1e-3);
+  for (std::size_t n = 0; n < run.samples.size(); ++n) {
+    const double size = n == 777 ? 5000 : 30;
+    run.samples[n].contacts = {{0, 1, Vec3(1, 0, 0), Vec3::UnitY(), 0, Vec3(2, size, 0)},
+                               {1, 0, Vec3(4, 0, 3), -Vec3::UnitY(), 0, Vec3(0, -2 * size, 0)}};
+  }
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 300000).front());
+  BOOST_TEST_REQUIRE(page.forces.size() == 1u);
+  const UnpackedForces& pair = page.forces.front();
+  BOOST_TEST(pair.a == 0), BOOST_TEST(pair.b == 1);
+  bool has_spike = false;
+  for (std::size_t p = 0; p < page.points.size(); ++p) {
+    const double size = page.points[p] == 777 ? 5000 : 30;
+    has_spike = has_spike || page.points[p] == 777;
+    // A third of the way, weighted with the forces; forces have eight bits of mantissa.
+    BOOST_TEST((pair.points[p] - Vec3(3, 0, 2)).norm() < 1e-4);
+    BOOST_TEST((pair.forces[p] - Vec3(2, 3 * size, 0)).norm() < 0.004 * 3 * size);
+    BOOST_TEST((pair.normals[p] - Vec3::UnitY()).norm() < 1e-4);
+  }
+  BOOST_TEST(has_spike);
+}
+
+BOOST_AUTO_TEST_CASE(forces_of_the_strongest_pairs_are_kept_and_what_does_not_touch_has_none) {
+  const Scene scene = one_ball();
+  Trajectory run = bouncing(1, 0.01);
+  for (int b = 1; b <= 20; ++b)
+    run.samples[static_cast<std::size_t>(b)].contacts = {{0, b, Vec3::Zero(), Vec3::UnitY(), 0, Vec3(0, b, 0)}};
+  const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 300000).front());
+  BOOST_TEST_REQUIRE(page.forces.size() == 8u);
+  for (const UnpackedForces& pair : page.forces) {
+    BOOST_TEST(pair.b > 12);
+    for (std::size_t p = 0; p < page.points.size(); ++p) {
+      const bool touches = page.points[p] == static_cast<std::size_t>(pair.b);
+      BOOST_TEST((pair.forces[p].norm() > 0) == touches);
+      BOOST_TEST((pair.normals[p].norm() > 0) == touches);
+    }
+  }
+  BOOST_TEST(unpacked_run(packed_run(judged(scene, bouncing(1, 0.01)), {}, 1, 300000).front()).forces.empty());
+}
+
 BOOST_AUTO_TEST_CASE(no_sample_is_no_trouble) {
   const Scene scene = one_ball();
   BOOST_TEST(packed_run(judged(scene, Trajectory{}), {}, 1, 300000).empty());

@@ -80,6 +80,12 @@ class Unpacking {
   std::size_t at_ = 0;
 };
 
+// The contact force of one pair at each point.
+struct UnpackedForces {
+  int a, b;
+  std::vector<Vec3> points, forces, normals;
+};
+
 // A packed run of one body or more, as numbers.
 struct UnpackedRun {
   bool is_like_truth;
@@ -90,7 +96,32 @@ struct UnpackedRun {
   std::vector<std::size_t> points;
   std::vector<int> series;                  // numbers of names
   std::vector<std::vector<double>> values;  // of each series at each point
+  std::vector<UnpackedForces> forces;
 };
+
+inline std::vector<UnpackedForces> unpacked_forces(Unpacking& in, std::size_t count) {
+  std::vector<UnpackedForces> pairs(in.u32());
+  for (UnpackedForces& pair : pairs) pair.a = static_cast<int>(in.u32()), pair.b = static_cast<int>(in.u32());
+  if (pairs.empty()) return pairs;
+  Vec3 low, extent;
+  for (int k = 0; k < 3; ++k) low[k] = in.f32();
+  for (int k = 0; k < 3; ++k) extent[k] = in.f32();
+  const auto packed = in.differences(9 * pairs.size() * count);
+  auto at = packed.begin();
+  const auto vectors = [&](const auto& read) {
+    std::vector<Vec3> all(count);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (Vec3& one : all) one[axis] = read(*at++, axis);
+    }
+    return all;
+  };
+  for (UnpackedForces& pair : pairs) {
+    pair.points = vectors([&](std::uint16_t bits, int axis) { return low[axis] + bits / 65535.0 * extent[axis]; });
+    pair.forces = vectors([](std::uint16_t bits, int) { return from_half(bits); });
+    pair.normals = vectors([](std::uint16_t bits, int) { return (bits - 32768) / 32767.0; });
+  }
+  return pairs;
+}
 
 inline UnpackedRun unpacked_run(const std::string& text) {
   Unpacking in(inflated(from_base64(text)));
@@ -120,6 +151,7 @@ inline UnpackedRun unpacked_run(const std::string& text) {
     auto& values = run.values.emplace_back();
     for (std::size_t p = 0; p < run.points.size(); ++p) values.push_back(from_half(packed[c * run.points.size() + p]));
   }
+  run.forces = unpacked_forces(in, run.points.size());
   return run;
 }
 

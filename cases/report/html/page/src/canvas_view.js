@@ -111,6 +111,10 @@ export class CanvasView {
     }
     (pen.globalAlpha = 1), (pen.fillStyle = colour("--bad-solid"));
     const side = areFew ? 5 : 3;
+    (pen.strokeStyle = colour("--ink-2")), (pen.lineWidth = 1);
+    for (const [a, b] of layer.forceful.cones) this.line([a, b]);
+    (pen.strokeStyle = own), (pen.lineWidth = 2.5);
+    for (const [a, b] of layer.forceful.arrows) this.line([a, b]);
     for (const p of layer.contacts) {
       const at = this.project(p);
       if (at) pen.fillRect(at[0] - side / 2, at[1] - side / 2, side, side);

@@ -291,6 +291,7 @@ export class CaseView {
       t: () => this.stage?.flip("trails"),
       c: () => this.stage?.flip("contacts"),
       i: () => this.stage?.flip("joints"),
+      e: () => this.stage?.flip("forces"),
       "+": () => player.faster(2),
       "-": () => player.faster(0.5),
       f: () => this.stage?.frameAll(),

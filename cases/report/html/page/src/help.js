@@ -8,7 +8,7 @@ const keys = [
   ["1 … 9, 0", "an engine on or off; with shift alone"],
   ["a  n", "all engines, none"],
   ["o  s", "overlaid or side by side"],
-  ["g t c i", "the truth, trails, contacts, joints"],
+  ["g t c i e", "the truth, trails, contacts, joints, forces"],
   ["+ −", "faster, slower"],
   ["f", "the whole scene in the picture"],
   ["l", "plots logarithmic or linear"],

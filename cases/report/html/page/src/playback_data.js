@@ -7,6 +7,9 @@ class Reader {
     this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     this.at = 0;
   }
+  get isAtEnd() {
+    return this.at >= this.bytes.length;
+  }
   u8() {
     return this.view.getUint8(this.at++);
   }
@@ -123,6 +126,33 @@ class Motion {
   }
 }
 
+// Each pair's contact force at the instants of the series (force_playback.h); none in results of older versions.
+function readForces(reader, times) {
+  if (reader.isAtEnd) return null;
+  const pairs = Array.from({ length: reader.u32() }, () => [reader.u32(), reader.u32()]);
+  if (!pairs.length) return null;
+  const low = [reader.f32(), reader.f32(), reader.f32()],
+    extent = [reader.f32(), reader.f32(), reader.f32()],
+    count = times.length;
+  const packed = reader.differences(9 * pairs.length * count);
+  const vectorsOf = (pair, channel, read) =>
+    Array.from({ length: count }, (_, n) =>
+      [0, 1, 2].map((axis) => read(packed[((pair * 9 + channel + axis) * count) + n], axis)),
+    );
+  return pairs.map(([a, b], pair) => {
+    const forces = vectorsOf(pair, 3, fromHalf);
+    return {
+      a,
+      b,
+      times,
+      points: vectorsOf(pair, 0, (bits, axis) => low[axis] + (bits / 65535) * extent[axis]),
+      forces,
+      normals: vectorsOf(pair, 6, (bits) => (bits - 32768) / 32767),
+      sizes: forces.map((force) => Math.hypot(...force)),
+    };
+  });
+}
+
 export async function loadPlayback(text, courseNames) {
   if (!text) return null;
   const reader = new Reader(await unpacked(text));
@@ -143,7 +173,8 @@ export async function loadPlayback(text, courseNames) {
     while (length > 0 && Number.isNaN(values[length - 1])) --length;
     series[name] = { times: points.subarray(0, length), values: values.slice(0, length) };
   });
-  return { isLikeTruth, motion: motion.times.length ? motion : null, series, last, bodies };
+  const forces = readForces(reader, points);
+  return { isLikeTruth, motion: motion.times.length ? motion : null, series, forces, last, bodies };
 }
 
 // All of one case at one step: the truth and each engine that ran.

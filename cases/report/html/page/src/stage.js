@@ -4,6 +4,7 @@ import { CanvasView } from "./canvas_view.js";
 import { cellOf, failedAt, judgement } from "./data.js";
 import { el, replace } from "./dom.js";
 import { digits, quantity } from "./format.js";
+import { forceSegments, forcesAt, frictionOf, usualForce } from "./force_model.js";
 import { jointSegments, jointsOf } from "./joint_model.js";
 import { valueAt } from "./playback_data.js";
 import { contacts, drawables, extentOf, springsOf, up } from "./scene_model.js";
@@ -17,15 +18,17 @@ const longHold = 50; // ms: more, and a reader's keys and mouse seem to lag
 export class Stage {
   constructor(results, one, data, player, root) {
     Object.assign(this, { results, one, data, player, root, engines: [], dirty: true });
-    this.flags = { truth: true, trails: true, contacts: true, joints: true };
+    this.flags = { truth: true, trails: true, contacts: true, joints: true, forces: true };
     this.joints = jointsOf(one.scene);
+    this.friction = frictionOf(one.scene);
+    this.usual = usualForce([...data.runs.values()]); // N; 0 if no engine told its forces
     this.shapes = drawables(one.scene).map((s) => ({ ...s, collides: one.scene.bodies[s.index].collides }));
     this.camera = new Camera(up(one.scene));
     this.layers = new Map();
-    if (data.truth?.motion) this.layers.set("truth", this.layer("truth", null, data.truth.motion, 0));
+    if (data.truth?.motion) this.layers.set("truth", this.layer("truth", null, data.truth));
     for (const engine of results.engines) {
       const run = data.runs.get(engine.name);
-      if (run?.motion) this.layers.set(engine.name, this.layer(engine.name, engine, run.motion, engine.index + 1));
+      if (run?.motion) this.layers.set(engine.name, this.layer(engine.name, engine, run));
     }
     this.build();
     this.frameAll();
@@ -41,8 +44,8 @@ export class Stage {
     this.view.close();
   }
 
-  layer(name, engine, motion) {
-    return { name, engine, motion, poses: new Float32Array(7 * motion.bodies), visible: false };
+  layer(name, engine, { motion, forces }) {
+    return { name, engine, motion, forces, poses: new Float32Array(7 * motion.bodies), visible: false };
   }
 
   build() {
@@ -131,6 +134,7 @@ export class Stage {
       );
     this.flagButtons = [flag("truth", "truth"), flag("trails", "trails"), flag("contacts", "contacts")];
     if (this.joints.length) this.flagButtons.push(flag("joints", "joints"));
+    if (this.usual > 0) this.flagButtons.push(flag("forces", "forces"));
     return el(
       "div.flags",
       {},
@@ -274,6 +278,7 @@ export class Stage {
       layer.contacts =
         this.flags.contacts && !layer.isGone && layer.name !== "truth" ? contacts(this.shapes, layer.poses, near) : [];
       layer.jointed = this.jointed(layer);
+      layer.forceful = this.forceful(layer);
       layer.key = layer.motion.keyAt(time);
       const failure = layer.engine ? failedAt(this.cell(layer.engine)) : null;
       layer.hasFailed = failure !== null && time >= failure;
@@ -307,6 +312,13 @@ export class Stage {
     if (!this.flags.joints || layer.isGone || !this.joints.length) return { marks: [], gaps: [] };
     const { radius } = this.bounds();
     return jointSegments(this.joints, layer.poses, 0.025 * radius, layer.engine ? 0.004 * radius : Infinity);
+  }
+
+  // A usual force is a third of the scene long.
+  forceful(layer) {
+    if (!this.flags.forces || layer.isGone || !(this.usual > 0)) return { arrows: [], cones: [] };
+    const { radius } = this.bounds();
+    return forceSegments(forcesAt(layer.forces, this.player.time), this.friction, radius / 3 / this.usual, radius);
   }
 
   // The widest gap of any joint of each engine shown, as it was measured.

@@ -6,6 +6,7 @@ import { percent, quantity, words } from "./format.js";
 import { saveButtons } from "./saving.js";
 import { timePicture, timeTable } from "./time_picture.js";
 import { valueAt } from "./playback_data.js";
+import { followTouch, liveliest, pairsOf } from "./plot_choices.js";
 import { linear, logarithmic } from "./plot_scales.js";
 import { colour, isDark, onTheme } from "./theme.js";
 import { set, state } from "./state.js";
@@ -34,6 +35,7 @@ export class TimePlots {
     this.names = first.filter((name) => present.has(name));
     this.others = [...present].filter((name) => !first.includes(name));
     [this.body, this.component] = liveliest(one.scene.bodies, data);
+    this.touching = pairsOf(data);
     this.stops = [player.onTick(() => this.movePlayheads()), onTheme(() => this.draw())];
     this.resize = new ResizeObserver(() => this.fit());
     this.resize.observe(root);
@@ -55,6 +57,7 @@ export class TimePlots {
     this.plots = [];
     const holders = [
       this.coordinate(),
+      this.contactForce(),
       ...[...this.names, ...(this.more ? this.others : [])].map((name) => this.course(name)),
     ].filter(Boolean);
     const scale = el(
@@ -124,6 +127,34 @@ export class TimePlots {
       choose(slots, this.component, (v) => (this.component = v)),
     );
     return this.plot("coordinate", title, this.component < 3 ? "m" : "rad", series, { log: false, truth });
+  }
+
+  // The size of the contact force of one pair of bodies, as each engine tells it.
+  contactForce() {
+    if (!this.touching.length) return null;
+    this.pair = this.touching.find((pair) => pair.key === this.pair?.key) ?? this.touching[0];
+    const { bodies } = this.one.scene;
+    const title = el(
+      "span",
+      {},
+      "contact force of ",
+      el(
+        "select",
+        {
+          onchange: (event) => ((this.pair = this.touching[event.target.value]), this.draw()),
+          "aria-label": "which pair of bodies",
+        },
+        this.touching.map((pair, i) =>
+          el("option", { value: i, selected: pair === this.pair }, `${bodies[pair.a].name} and ${bodies[pair.b].name}`),
+        ),
+      ),
+    );
+    const of = (engine) => this.data.runs.get(engine.name).forces?.find((one) => one.a === this.pair.a && one.b === this.pair.b);
+    const series = this.engines
+      .map((engine) => [engine, of(engine)])
+      .filter(([, pair]) => pair)
+      .map(([engine, { times, sizes }]) => [engine, { times, values: sizes }]);
+    return series.length ? this.plot("contact_force", title, "N", series, { log: state.log }) : null;
   }
 
   course(name) {
@@ -326,35 +357,4 @@ export class TimePlots {
       chart.setSeries(at < 0 ? null : at + 1, { focus: true });
     }
   }
-}
-
-// The body and the coordinate that move most; the angle if bodies only rotate.
-function liveliest(bodies, data) {
-  const motion = data.truth?.motion ?? [...data.runs.values()].find((run) => run.motion)?.motion;
-  const moving = Math.max(
-    0,
-    bodies.findIndex((b) => !b.fixed),
-  );
-  if (!motion) return [moving, 1];
-  const range = [0, 1, 2].map((k) => {
-    let low = Infinity,
-      high = -Infinity;
-    for (let slot = 7 * moving + k; slot < motion.values.length; slot += 7 * motion.bodies)
-      (low = Math.min(low, motion.values[slot])), (high = Math.max(high, motion.values[slot]));
-    return high - low;
-  });
-  const best = range.indexOf(Math.max(...range));
-  return [moving, range[best] > 1e-9 ? best : 3];
-}
-
-// A finger on a plot sets the time; up and down still scrolls the page.
-function followTouch(chart, seek) {
-  const { over } = chart;
-  over.style.touchAction = "pan-y";
-  const move = (event) => {
-    if (event.pointerType !== "touch") return;
-    seek(chart.posToVal(event.clientX - over.getBoundingClientRect().left, "x"));
-  };
-  over.addEventListener("pointerdown", move);
-  over.addEventListener("pointermove", move);
 }

@@ -1,6 +1,7 @@
 // Draws the stage with three.js. Bodies of one kind are instances of one mesh, so a thousand bodies need only a few
 // calls.
 import * as THREE from "three";
+import { mostSegments } from "./force_model.js";
 import { coil, pointOf } from "./scene_model.js";
 import { colour, isDark } from "./theme.js";
 
@@ -101,6 +102,9 @@ export class WebglView {
     const seenThrough = new THREE.LineBasicMaterial({ transparent: ghost, opacity: ghost ? 0.4 : 1, depthTest: false });
     const marks = segments(5 * Math.max(1, this.context.joints.length), seenThrough),
       gaps = segments(Math.max(1, this.context.joints.length), new THREE.LineBasicMaterial({ depthTest: false }));
+    const most = mostSegments(layer.forces?.length ?? 0),
+      arrows = segments(most.arrows, new THREE.LineBasicMaterial({ depthTest: false })),
+      cones = segments(most.cones, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.6, depthTest: false }));
     const touching = new THREE.Points(
       new THREE.BufferGeometry(),
       new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, depthTest: false }),
@@ -108,9 +112,9 @@ export class WebglView {
     touching.frustumCulled = false;
     touching.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * 400), 3));
     const trails = ghost ? [] : this.trails(layer);
-    group.add(coils, marks, gaps, touching, ...trails);
+    group.add(coils, marks, gaps, arrows, cones, touching, ...trails);
     this.scene.add(group);
-    return { layer, group, material, lines, meshes, coils, marks, gaps, touching, trails };
+    return { layer, group, material, lines, meshes, coils, marks, gaps, arrows, cones, touching, trails };
   }
 
   // Each body's path so far. Paths of many bodies are not shown, because they would hide each other.
@@ -139,10 +143,11 @@ export class WebglView {
   }
 
   recolour() {
-    for (const { layer, material, lines, marks, gaps, touching, trails } of this.groups.values()) {
+    for (const { layer, material, lines, marks, gaps, arrows, cones, touching, trails } of this.groups.values()) {
       const tint = new THREE.Color(layer.engine ? layer.engine.hex[isDark() ? 1 : 0] : colour("--truth-solid"));
       material.color.copy(tint), lines.color.copy(tint), touching.material.color.set(colour("--bad-solid"));
       gaps.material.color.set(colour("--bad-solid")), marks.material.color.copy(tint);
+      arrows.material.color.copy(tint), cones.material.color.set(colour("--ink-2"));
       trails.forEach((line) => line.material.color.copy(tint));
     }
     for (const grid of this.planes)
@@ -199,7 +204,7 @@ export class WebglView {
     if (this.pace > 40 && this.ratio > 0.5) (this.ratio = Math.max(0.5, this.ratio * 0.8)), (this.pace = 20);
   }
 
-  place({ layer, meshes, coils, marks, gaps, touching, trails }, showTrails) {
+  place({ layer, meshes, coils, marks, gaps, arrows, cones, touching, trails }, showTrails) {
     const { poses } = layer;
     for (const { mesh, members } of meshes) {
       members.forEach((shape, i) => mesh.setMatrixAt(i, matrixOf(poses, shape)));
@@ -207,6 +212,7 @@ export class WebglView {
     }
     this.placeCoils(coils, poses);
     putSegments(marks, layer.jointed.marks), putSegments(gaps, layer.jointed.gaps);
+    putSegments(arrows, layer.forceful.arrows), putSegments(cones, layer.forceful.cones);
     const spots = touching.geometry.attributes.position;
     layer.contacts.slice(0, 400).forEach((p, i) => spots.setXYZ(i, ...p));
     spots.needsUpdate = true;

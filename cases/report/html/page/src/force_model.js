@@ -1,0 +1,69 @@
+// The drawing of contact forces: for each pair an arrow from where its resultant acts, and the friction cone around the
+// normal. A force inside its cone holds; one on the cone slides.
+
+const add = (p, v, by) => p.map((x, k) => x + by * v[k]);
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const unit = (v) => v.map((x) => x / (Math.hypot(...v) || 1));
+const across = (v) => unit(cross(v, Math.abs(v[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0]));
+
+// The friction of each pair of bodies in a scene; not a number where it is infinite.
+export function frictionOf(scene) {
+  const index = new Map(scene.bodies.map((b, i) => [b.name, i])),
+    all = Number(scene.contact_default?.friction ?? 0),
+    own = new Map();
+  for (const contact of scene.contacts ?? []) {
+    const [a, b] = [index.get(contact.a), index.get(contact.b)];
+    own.set(`${Math.min(a, b)} ${Math.max(a, b)}`, Number(contact.friction ?? all));
+  }
+  return (a, b) => own.get(`${a} ${b}`) ?? all;
+}
+
+// A force that is usual in these runs: the median of the larger half. Impacts do not make resting forces invisible.
+export function usualForce(runs) {
+  const sizes = runs.flatMap((run) => (run.forces ?? []).flatMap((pair) => pair.sizes.filter((size) => size > 0)));
+  sizes.sort((a, b) => a - b);
+  return sizes.length ? sizes[Math.floor(0.75 * (sizes.length - 1))] : 0;
+}
+
+// Each pair's resultant in the last step before `time`. Pairs that do not touch are left out.
+export function forcesAt(pairs, time) {
+  const found = [];
+  for (const { a, b, times, points, forces, normals, sizes } of pairs ?? []) {
+    let n = times.length - 1;
+    while (n > 0 && times[n] > time + 1e-9) --n;
+    if (sizes[n] > 0 && Math.hypot(...normals[n]) > 0.5)
+      found.push({ a, b, point: points[n], force: forces[n], normal: normals[n], size: sizes[n] });
+  }
+  return found;
+}
+
+// `arrows` and `cones`: segments of two points each. `metres`: the length of a newton; `most` that of any arrow.
+export function forceSegments(found, friction, metres, most) {
+  const arrows = [],
+    cones = [];
+  for (const { a, b, point, force, normal, size } of found) {
+    const length = Math.min(most, metres * size),
+      way = unit(force),
+      tip = add(point, way, length),
+      side = across(way);
+    arrows.push([point, tip]);
+    for (const sign of [-1, 1]) arrows.push([tip, add(add(tip, way, -0.2 * length), side, sign * 0.08 * length)]);
+    const mu = friction(a, b),
+      height = (length * dot(force, normal)) / size;
+    if (!(mu > 0) || !Number.isFinite(mu) || !(height > 0)) continue;
+    const u = across(normal),
+      v = cross(normal, u),
+      centre = add(point, normal, height);
+    const rim = Array.from({ length: 13 }, (_, k) => {
+      const angle = (2 * Math.PI * k) / 12;
+      return add(add(centre, u, mu * height * Math.cos(angle)), v, mu * height * Math.sin(angle));
+    });
+    for (let k = 0; k < 12; ++k) cones.push([rim[k], rim[k + 1]]);
+    for (let k = 0; k < 12; k += 3) cones.push([point, rim[k]]);
+  }
+  return { arrows, cones };
+}
+
+// The most segments that forceSegments makes of so many pairs.
+export const mostSegments = (pairs) => ({ arrows: 3 * pairs, cones: 16 * pairs });
