@@ -46,7 +46,7 @@ MethodInfo mlcp() {
               "semi-implicit Euler, joints and contacts by a direct (Dantzig) solver, dense: a step takes "
               "the cube of its rows, 30 ms for 500",
           .leapfrog_stagger = 0.5,
-          .lacks = {Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
+          .lacks = {Feature::soft_contact, Feature::speed_motor_with_limits, Feature::two_speeds_at_once},
           .options = {bullet::kGyroscopic, bullet::kSplitImpulse, bullet::kErpOption, bullet::kDirectCfm}};
 }
 
@@ -57,7 +57,7 @@ MethodInfo multibody() {
               "semi-implicit Euler in the reduced coordinates of trees (Featherstone); limits do not bounce, nor do "
               "contacts",
           .leapfrog_stagger = 0.5,
-          .lacks = {Feature::joint_limit_that_bounces, Feature::joint_loop, Feature::restitution,
+          .lacks = {Feature::joint_limit_that_bounces, Feature::joint_loop, Feature::restitution, Feature::soft_contact,
                     Feature::two_speeds_at_once},
           .options = {bullet::kIterations}};
 }
@@ -68,11 +68,11 @@ EngineInfo BulletEngine::info() const {
   return {.name = "bullet",
           .version = version(),
           .precision = sizeof(btScalar) == sizeof(double) ? "double" : "single",
-          .features = joined(
-              kJoints,
-              joined(kBulletContacts, {Feature::placed_shapes, Feature::contact_filter, Feature::spring,
-                                       Feature::timed_force, Feature::fixed_body, Feature::restitution,
-                                       Feature::friction_none, Feature::friction_coulomb, Feature::friction_infinite})),
+          .features =
+              joined(kJoints, joined(kBulletContacts, {Feature::placed_shapes, Feature::contact_filter, Feature::spring,
+                                                       Feature::timed_force, Feature::fixed_body, Feature::restitution,
+                                                       Feature::friction_none, Feature::friction_coulomb,
+                                                       Feature::friction_infinite, Feature::soft_contact})),
           .methods = {sequential_impulse(), mlcp(), multibody()},
           .max_rotation_per_step = bullet::kLargestTurn};  // a faster body keeps its speed and turns too little
 }

@@ -29,6 +29,17 @@ btScalar restitution_of(const btCollisionObject* a, const btCollisionObject* b) 
   return law ? law->restitution : bullets_restitution(a, b);
 }
 
+// Called only for objects with CF_CUSTOM_MATERIAL_CALLBACK. Bullet ignores what it returns.
+bool soften(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int, const btCollisionObjectWrapper* b, int,
+            int) {
+  const ContactLaw* law = law_of(a->getCollisionObject(), b->getCollisionObject());
+  if (!law || !law->is_soft()) return false;
+  point.m_combinedContactStiffness1 = law->stiffness;
+  point.m_combinedContactDamping1 = law->damping;
+  point.m_contactPointFlags |= BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING;
+  return true;
+}
+
 }  // namespace
 
 void install_pair_laws() {
@@ -37,6 +48,7 @@ void install_pair_laws() {
     bullets_restitution = gCalculateCombinedRestitutionCallback;
     gCalculateCombinedFrictionCallback = friction_of;
     gCalculateCombinedRestitutionCallback = restitution_of;
+    gContactAddedCallback = soften;
     return true;
   }();
   static_cast<void>(installed);
@@ -45,6 +57,10 @@ void install_pair_laws() {
 void follow_laws(btCollisionObject& object, const ContactLaws& laws, int index) {
   object.setUserPointer(const_cast<ContactLaws*>(&laws));  // Bullet keeps it as void*; it is only read through
   object.setUserIndex(index);
+}
+
+void follow_soft_laws(btCollisionObject& object) {
+  object.setCollisionFlags(object.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
 }
 
 }  // namespace rigor::bullet

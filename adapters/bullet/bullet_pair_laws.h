@@ -1,5 +1,6 @@
 // Bullet combines two bodies' friction (product, at most 10) and restitution (product) by functions that are global to
-// the process. Ours look up the scene's law of the pair, for bodies of a Rigor world, and leave all others to Bullet.
+// the process. Ours look up the scene's law of the pair, for bodies of a Rigor world, and leave all others to Bullet. A
+// third function is called for each new contact point, and gives a soft pair its stiffness and damping.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -13,5 +14,8 @@ void install_pair_laws();
 
 // The object's contacts follow the laws from now on; the laws must outlive the object.
 void follow_laws(btCollisionObject& object, const ContactLaws& laws, int index);
+
+// Also stiffness and damping, which costs a call for each new contact point.
+void follow_soft_laws(btCollisionObject& object);
 
 }  // namespace rigor::bullet

@@ -59,6 +59,7 @@ BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
       loads_(scene),
       matched_(settings.track == Track::matched),
       bounces_(needs(scene, Feature::restitution)),
+      is_soft_(needs(scene, Feature::soft_contact)),
       solver_(make_solver(settings.method, dantzig_)) {
   bullet::install_pair_laws();
   world_.setGravity(to_bullet(scene.gravity));
@@ -94,9 +95,10 @@ btRigidBody& BulletWorld::end_of_joint(int body) {
 void BulletWorld::apply(const Settings& settings) {
   btContactSolverInfo& solver = world_.getSolverInfo();
   if (matched_) {
-    solver.m_restitutionVelocityThreshold = 0;         // m/s: slower impacts bounce too
-    solver.m_splitImpulsePenetrationThreshold = 1e30;  // m: no penetration is corrected by adding velocity
-    solver.m_maxGyroscopicForce = 1e30;                // N m: the explicit gyroscopic torque is not cut off
+    solver.m_restitutionVelocityThreshold = 0;  // m/s: slower impacts bounce too
+    // m: no penetration is corrected by adding velocity; with soft contacts all, for theirs is the spring's.
+    solver.m_splitImpulsePenetrationThreshold = is_soft_ ? -1e30 : 1e30;
+    solver.m_maxGyroscopicForce = 1e30;  // N m: the explicit gyroscopic torque is not cut off
     // A box on a plane touches with all its corners at once; as shipped Bullet finds one a step, and the box tips over
     // it.
     configuration_.setPlaneConvexMultipointIterations(kCorners, kCorners);
@@ -136,6 +138,7 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
   }
   row.body = std::make_unique<btRigidBody>(start);
   bullet::follow_laws(*row.body, laws_, static_cast<int>(rows_.size()) - 1);
+  if (is_soft_) bullet::follow_soft_laws(*row.body);
   if (row.moves) {
     row.body->setLinearVelocity(to_bullet(body.velocity));
     row.body->setAngularVelocity(to_bullet(body.angular_velocity));
@@ -148,7 +151,7 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
     // m: no impulse across a gap, which would brake a body before its bounce. Without restitution that impulse is
     // correct.
     if (bounces_) row.body->setContactProcessingThreshold(0);
-    if (row.moves && body.collides && !bounces_) stop_at_first_touch(*row.body, inner_radius(*body.shape));
+    if (row.moves && body.collides && !bounces_ && !is_soft_) stop_at_first_touch(*row.body, inner_radius(*body.shape));
   }
   world_.addRigidBody(row.body.get(), btBroadphaseProxy::DefaultFilter,
                       body.collides ? kCollideWithAll : kCollideWithNone);
@@ -243,7 +246,10 @@ SettingsInForce BulletWorld::settings_in_force() const {
       {"cfm", softness_ > 0 ? fmt::format("{:g} 1/kg times dt", softness_) : fmt::format("{:g}", solver.m_globalCfm)},
       {"split impulse", on_off(solver.m_splitImpulse)},
       {"split impulse threshold",
-       matched_
+       matched_ && is_soft_
+           ? fmt::format("{:g} m: every overlap pushes, because that of a soft contact is its spring's",
+                         solver.m_splitImpulsePenetrationThreshold)
+       : matched_
            ? fmt::format("{:g} m: every overlap is moved out without adding speed, at the price of stacks that lean "
                          "sooner",
                          solver.m_splitImpulsePenetrationThreshold)

@@ -56,7 +56,7 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
 
   ContactLaws laws_;
   ExternalLoads loads_;
-  bool matched_, bounces_;
+  bool matched_, bounces_, is_soft_;
   double softness_ = 0;  // 1/kg: CFM/dt where it follows the step
   Clock clock_;
   double last_dt_ = 0;  // s

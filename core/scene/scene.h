@@ -85,7 +85,8 @@ struct ContactLaw {
   double rolling_friction = 0;    // m
   double torsional_friction = 0;  // m
   double stiffness = 0;           // N/m; 0: rigid
-  double damping = 0;             // N s/m, of a soft contact
+  double damping = 0;             // N s/m, of a soft contact: k x + c x' (Kelvin and Voigt)
+  double dissipation = 0;         // s/m, instead of damping: k x (1 + dissipation x') (Hunt and Crossley)
 
   bool is_soft() const { return stiffness > 0; }
   bool resists_turning() const { return rolling_friction > 0 || torsional_friction > 0; }

@@ -171,12 +171,17 @@ Fault fault_of(const ContactLaw& law) {
     return SceneFault{"friction", fmt::format("found {}; allowed: a number of at least 0", law.friction)};
   for (const auto& [key, value] :
        {std::pair("rolling_friction", law.rolling_friction), std::pair("torsional_friction", law.torsional_friction),
-        std::pair("stiffness", law.stiffness), std::pair("damping", law.damping)}) {
+        std::pair("stiffness", law.stiffness), std::pair("damping", law.damping),
+        std::pair("dissipation", law.dissipation)}) {
     if (!(value >= 0 && std::isfinite(value)))
       return SceneFault{key, fmt::format("found {}; allowed: a finite number of at least 0", value)};
   }
-  if (law.damping > 0 && !law.is_soft())
-    return SceneFault{"damping", "without stiffness the contact is rigid; allowed: stiffness, too"};
+  for (const auto& [key, value] : {std::pair("damping", law.damping), std::pair("dissipation", law.dissipation)}) {
+    if (value > 0 && !law.is_soft())
+      return SceneFault{key, "without stiffness the contact is rigid; allowed: stiffness, too"};
+  }
+  if (law.damping > 0 && law.dissipation > 0)
+    return SceneFault{"dissipation", "damping and dissipation belong to different laws; allowed: one of the two"};
   if (law.is_soft() && law.restitution > 0)
     return SceneFault{"restitution", "the bounce of a soft contact follows from its damping; allowed: one of the two"};
   return {};

@@ -15,6 +15,7 @@ const FeatureWord kPlainWords[] = {
     {Feature::friction_coulomb, "friction:coulomb"},
     {Feature::friction_infinite, "friction:infinite"},
     {Feature::friction_none, "friction:none"},
+    {Feature::hunt_crossley, "hunt-crossley"},
     {Feature::joint_damper, "joint-damper"},
     {Feature::joint_friction, "joint-friction"},
     {Feature::joint_limit, "joint-limit"},

@@ -24,6 +24,7 @@ enum class Feature : int {
   friction_coulomb,  // a finite coefficient above zero
   friction_infinite,
   friction_none,
+  hunt_crossley,  // a soft contact with a dissipation
   joint_damper,
   joint_friction,  // Coulomb friction of a hinge or slider
   joint_limit,

@@ -36,6 +36,7 @@ void add_contact_law(const ContactLaw& law, const std::string& because, NeedList
   if (law.rolling_friction > 0) needs.add(Feature::rolling_friction, because);
   if (law.torsional_friction > 0) needs.add(Feature::torsional_friction, because);
   if (law.is_soft()) needs.add(Feature::soft_contact, because);
+  if (law.dissipation > 0) needs.add(Feature::hunt_crossley, because);
 }
 
 // The body's shapes, each once, by their place in the table; and whether the body is fixed.

@@ -3,7 +3,8 @@
 //   m x'' = m g - k x - c x',
 // a damped oscillation about x = m g/k. The contact ends where the force does (Stronge, Impact Mechanics, 2000, section
 // 5.1). Without gravity that is after 2 acos(z)/w, w = sqrt(k/m) sqrt(1 - z²), z = c/(2 sqrt(k m)) < 1, and the ball
-// leaves with exp(-2 z acos(z)/sqrt(1 - z²)) of its speed. With gravity the end is found as a root of the force.
+// leaves with exp(-2 z acos(z)/sqrt(1 - z²)) of its speed. With gravity the end is found as a root of the force. The
+// law of Hunt and Crossley has its own file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <limits>
 #include <optional>
 
+#include "cases/truth/closed_form/contact/hunt_crossley.h"
 #include "cases/truth/closed_form/contact/plane_contact.h"
 
 namespace rigor {
@@ -150,10 +152,17 @@ void check_ball(const Body& body, const Ground& ground) {
   if (ground.along().norm() > 1e-12L * ground.pressing()) ground.refuse(body, "is on a slope");
 }
 
+std::unique_ptr<BodyMotion> bounce_of(const Body& body, const ContactLaw& law, const Ground& ground,
+                                      Extended duration) {
+  if (law.dissipation > 0) return hunt_crossley_bounce(body, ground, law.stiffness, law.dissipation, duration);
+  return std::make_unique<SoftBounce>(body, ground,
+                                      SpringDamper{body.mass, law.stiffness, law.damping, ground.pressing()}, duration);
+}
+
 std::unique_ptr<Truth> make_soft_bounce(const Scene& scene, double duration) {
   check_needs(scene, kSoftBounce, kSoftBounceIsFor,
               {contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(), Feature::friction_none,
-               Feature::soft_contact});
+               Feature::soft_contact, Feature::hunt_crossley});
   const Ground ground(scene, kSoftBounce, kSoftBounceIsFor);
   std::vector<SweptDisk> sweeps;
   auto truth = closed_form(scene, [&](const Body& body) {
@@ -161,8 +170,7 @@ std::unique_ptr<Truth> make_soft_bounce(const Scene& scene, double duration) {
     const ContactLaw law = scene.contact_law(static_cast<int>(&body - scene.bodies.data()), ground.body());
     if (!law.is_soft()) ground.refuse(body, "has a rigid contact");
     sweeps.push_back({&body, {extended(body.position)}, bounding_radius(*body.shape)});
-    return std::make_unique<SoftBounce>(
-        body, ground, SpringDamper{body.mass, law.stiffness, law.damping, ground.pressing()}, duration);
+    return bounce_of(body, law, ground, duration);
   });
   check_apart(sweeps, ground);
   return truth;
@@ -171,7 +179,8 @@ std::unique_ptr<Truth> make_soft_bounce(const Scene& scene, double duration) {
 }  // namespace
 
 TruthRow soft_bounce_truth() {
-  return {kSoftBounce, "balls bouncing on a plane with a spring and damper in the contact, in closed form",
+  return {kSoftBounce,
+          "balls bouncing on a plane with a spring and damper in the contact, in closed form or as power series",
           make_soft_bounce};
 }
 

@@ -1,9 +1,10 @@
 // Soft contact: the force law of a pair is part of the equations of motion. At an overlap x of two spheres, or of a
-// sphere and a plane, the force along the normal is max(0, k x + c x') (Kelvin and Voigt), without friction. The
-// integrator asks for it at each of its stages. An integrator that does not ask for forces is replaced by rkmk4, or
-// above order 4 by dormand-prince. The force begins and ends with a jump in its slope, or, with c > 0, in its value:
-// methods of fixed step lose their order there, and dormand-prince shortens its steps until its tolerance is met.
-// Every pair of spheres is looked at, so the method is for few bodies.
+// sphere and a plane, the force along the normal is max(0, k x + c x') (Kelvin and Voigt) or max(0, k x (1 + d x'))
+// (Hunt and Crossley, J. Appl. Mech. 42, 1975), without friction. The integrator asks for it at each of its stages. An
+// integrator that does not ask for forces is replaced by rkmk4, or above order 4 by dormand-prince. The force begins
+// and ends with a jump in its slope, or, with c > 0, in its value: methods of fixed step lose their order there, and
+// dormand-prince shortens its steps until its tolerance is met. Every pair of spheres is looked at, so the method is
+// for few bodies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -96,7 +97,9 @@ class SoftForces : public ConstraintForces {
     }
     if (!(overlap > 0)) return;
     const double closing = -n.dot(state.velocity(ball) - (pair.plane ? Vec3::Zero() : Vec3(state.velocity(other))));
-    const double force = std::max(0.0, pair.law.stiffness * overlap + pair.law.damping * closing);
+    const ContactLaw& law = pair.law;
+    const double force =
+        std::max(0.0, law.stiffness * overlap * (1 + law.dissipation * closing) + law.damping * closing);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
       wrenches_.column(kForce + k)[ball] += force * n[axis];
@@ -128,7 +131,8 @@ class SoftStepper : public ContactStepper {
   std::string solver_warning() const override { return integrator_->solver_warning(); }
   std::optional<double> sub_step() const override { return sub_step_; }
   SettingsInForce settings_in_force() const override {
-    return {{"integrator in contact", in_contact_.name}, {"contact law", "max(0, k x + c x'), at each stage"}};
+    return {{"integrator in contact", in_contact_.name},
+            {"contact law", "max(0, k x (1 + d x') + c x'), at each stage"}};
   }
 
  private:
@@ -162,7 +166,7 @@ const ContactMethod kSoftContact = {
     .name = "soft",
     .summary = "the springs and dampers of soft contacts at each stage; for a few spheres without friction",
     .features = {contact_feature<Plane, Sphere>(), contact_feature<Sphere, Sphere>(), Feature::soft_contact,
-                 Feature::contact_filter, Feature::friction_none},
+                 Feature::hunt_crossley, Feature::contact_filter, Feature::friction_none},
     .make = make_contact_stepper<SoftStepper>,
 };
 

@@ -54,6 +54,19 @@ BOOST_AUTO_TEST_CASE(methods_of_fixed_step_converge_to_it) {
   }
 }
 
+// Without gravity d v - ln(1 + d v) is the same before and after (Hunt and Crossley).
+BOOST_AUTO_TEST_CASE(a_ball_leaves_a_wall_by_hunt_and_crossleys_law) {
+  for (const double dissipation : {0.05, 0.3}) {
+    Scene scene = ball_before_wall(0);
+    scene.contact_default.dissipation = dissipation;
+    ContactRun run(scene, "soft", "dormand-prince");
+    run.run(1.0 / 30, 12);
+    const auto kept = [&](double v) { return dissipation * v - std::log1p(dissipation * v); };
+    BOOST_TEST(run.state().velocity(0).z() > 0.5);
+    BOOST_TEST(std::abs(kept(-run.state().velocity(0).z()) - kept(2)) < 1e-9, dissipation);
+  }
+}
+
 // The reduced mass of two equal balls is half of one's.
 BOOST_AUTO_TEST_CASE(two_balls_keep_their_momentum) {
   Scene scene;
