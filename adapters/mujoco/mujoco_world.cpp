@@ -69,6 +69,15 @@ std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
   return fmt::format("solref {:g} {:g}, solimp {:g} {:g} {:g}", solref[0], solref[1], solimp[0], solimp[1], solimp[2]);
 }
 
+// Positions, velocities and the start of the solver's next iteration: nothing else outlives a step.
+struct MujocoState : SavedState {
+  Clock clock;
+  bool lost = false;
+  std::string solver_warning;
+  double time = 0;  // s
+  std::vector<mjtNum> positions, velocities, warm_start;
+};
+
 }  // namespace
 
 MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
@@ -106,6 +115,27 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
       body_of_geom_[static_cast<std::size_t>(geom)] = body;
     }
   }
+}
+
+std::unique_ptr<SavedState> MujocoWorld::save() const {
+  const mjModel& model = *made_.model;
+  auto state = std::make_unique<MujocoState>();
+  state->clock = clock_, state->lost = lost_, state->solver_warning = solver_warning_, state->time = data_->time;
+  state->positions.assign(data_->qpos, data_->qpos + model.nq);
+  state->velocities.assign(data_->qvel, data_->qvel + model.nv);
+  state->warm_start.assign(data_->qacc_warmstart, data_->qacc_warmstart + model.nv);
+  return state;
+}
+
+void MujocoWorld::restore(const SavedState& saved) {
+  const auto& state = dynamic_cast<const MujocoState&>(saved);
+  clock_ = state.clock, lost_ = state.lost, solver_warning_ = state.solver_warning, data_->time = state.time;
+  std::copy(state.positions.begin(), state.positions.end(), data_->qpos);
+  std::copy(state.velocities.begin(), state.velocities.end(), data_->qvel);
+  std::copy(state.warm_start.begin(), state.warm_start.end(), data_->qacc_warmstart);
+  mj_kinematics(made_.model.get(), data_.get());  // the poses of the bodies, which are read
+  mj_comPos(made_.model.get(), data_.get());
+  is_step_in_data_ = false;
 }
 
 void MujocoWorld::step(double dt) {

@@ -10,7 +10,7 @@
 
 namespace rigor {
 
-class MujocoWorld : public World, public ReportsReactions, public ReportsContacts {
+class MujocoWorld : public World, public ReportsReactions, public ReportsContacts, public SavesState {
  public:
   MujocoWorld(const Scene& scene, const Settings& settings);
 
@@ -19,9 +19,14 @@ class MujocoWorld : public World, public ReportsReactions, public ReportsContact
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
   // MuJoCo keeps only the forces of the last stage of RK4. They are no mean over the step.
+  // A sampling servo holds its effort, which is not among MuJoCo's state.
   Capabilities capabilities() override {
-    return {.reactions = this, .contacts = made_.model->opt.integrator == mjINT_RK4 ? nullptr : this};
+    return {.reactions = this,
+            .contacts = made_.model->opt.integrator == mjINT_RK4 ? nullptr : this,
+            .state = loads_.empty() && motors_.empty() ? this : nullptr};
   }
+  std::unique_ptr<SavedState> save() const override;
+  void restore(const SavedState& state) override;
   void ask_for_reactions() override { is_asked_ = said_.are_said(); }
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override {}  // MuJoCo always keeps them

@@ -143,6 +143,24 @@ std::vector<ReportedContact> ProcessSession::contacts(int world) {
   return contacts;
 }
 
+std::string ProcessSession::save(int world) {
+  constexpr std::size_t kLongest = 256'000'000;  // bytes: some hundred thousand bodies
+  const Json answer = ask(fmt::format(R"({{"call":"save","world":{}}})", world), "save", kLongest, world);
+  std::string snapshot;
+  checked([&] {
+    const auto found = answer.find("snapshot");
+    if (found == answer.end() || !found->is_string())
+      refuse_answer({child_->name(), "save", world}, "its snapshot is no text");
+    snapshot = found->get<std::string>();
+  });
+  return snapshot;
+}
+
+void ProcessSession::restore(int world, const std::string& snapshot) {
+  const Json request = {{"call", "restore"}, {"world", world}, {"snapshot", snapshot}};
+  ask(request.dump(), "restore", kShortAnswer, world);
+}
+
 void ProcessSession::unload(int world) {
   ask(fmt::format(R"({{"call":"unload","world":{}}})", world), "unload", kShortAnswer, world);
 }

@@ -36,6 +36,8 @@ class ProcessSession {
   // `count` steps, of which each `every`-th, and the last, is sampled into one of the tables; `begin`: s.
   void run(int world, double begin, double dt, long count, long every, std::vector<KeptBodies>& samples);
   std::vector<ReportedContact> contacts(int world);  // of its last step
+  std::string save(int world);                       // what the engine makes of its state
+  void restore(int world, const std::string& snapshot);
   void unload(int world);
   // The engine's message about its last step or run: why it is less accurate than the method promises.
   const std::string& warning() const { return warning_; }

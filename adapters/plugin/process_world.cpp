@@ -16,6 +16,14 @@ namespace {
 constexpr long kMostSteps = 1000;
 constexpr double kMostBytes = 8e6, kBytesOfBody = 260;
 
+struct ProcessState : SavedState {
+  Clock clock;
+  double last_dt = 0;  // s
+  long steps = 0;
+  bool steps_are_equal = true;
+  std::string warning, lost_why, snapshot;
+};
+
 }  // namespace
 
 ProcessWorld::ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings)
@@ -112,6 +120,23 @@ void ProcessWorld::lose(const std::string& why, int body) const {
 std::vector<ReportedContact> ProcessWorld::contacts() const {
   if (steps_ == 0 || !lost_why_.empty()) return {};
   return session_->contacts(world_);
+}
+
+std::unique_ptr<SavedState> ProcessWorld::save() const {
+  assert(ahead_.taken == ahead_.count && "the engine is ahead of the step that would be saved");
+  auto state = std::make_unique<ProcessState>();
+  state->clock = clock_, state->last_dt = last_dt_, state->steps = steps_, state->steps_are_equal = steps_are_equal_;
+  state->warning = warning_, state->lost_why = lost_why_;
+  if (lost_why_.empty()) state->snapshot = session_->save(world_);
+  return state;
+}
+
+void ProcessWorld::restore(const SavedState& saved) {
+  const auto& state = dynamic_cast<const ProcessState&>(saved);
+  clock_ = state.clock, last_dt_ = state.last_dt, steps_ = state.steps, steps_are_equal_ = state.steps_are_equal;
+  warning_ = state.warning, lost_why_ = state.lost_why;
+  if (lost_why_.empty()) session_->restore(world_, state.snapshot);
+  ahead_ = {}, is_read_ = false;
 }
 
 void ProcessWorld::read(Snapshot& out) const {

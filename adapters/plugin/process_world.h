@@ -11,7 +11,7 @@
 
 namespace rigor {
 
-class ProcessWorld : public World, public RemoteRuns, public ReportsContacts {
+class ProcessWorld : public World, public RemoteRuns, public ReportsContacts, public SavesState {
  public:
   ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings);
   ~ProcessWorld() override;
@@ -21,8 +21,12 @@ class ProcessWorld : public World, public RemoteRuns, public ReportsContacts {
   SettingsInForce settings_in_force() const override { return in_force_; }
   std::string solver_warning() const override { return lost_why_.empty() ? warning_ : lost_why_; }
   Capabilities capabilities() override {
-    return {.remote = this, .contacts = session_->info().has_contacts ? this : nullptr};
+    return {.remote = this,
+            .contacts = session_->info().has_contacts ? this : nullptr,
+            .state = session_->info().has_state && loads_.empty() ? this : nullptr};
   }
+  std::unique_ptr<SavedState> save() const override;
+  void restore(const SavedState& state) override;
   // A run of many steps reports the last of them alone, so each step is its own request from now on.
   void ask_for_contacts() override { asks_for_contacts_ = true, ahead_ = {}; }
   std::vector<ReportedContact> contacts() const override;

@@ -2,6 +2,7 @@
 // each one that the world has. A decorator returns those of the world that it wraps.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,12 +82,29 @@ class ReportsContacts {
   virtual std::vector<ReportedContact> contacts() const = 0;
 };
 
+// All that a world's next steps depend on, at one instant: also what its engine keeps beyond the bodies' states. Each
+// engine has its own.
+class SavedState {
+ public:
+  virtual ~SavedState() = default;
+};
+
+// A world whose state can be saved, and restored at any later time.
+class SavesState {
+ public:
+  virtual ~SavesState() = default;
+  virtual std::unique_ptr<SavedState> save() const = 0;
+  // `state` was saved by this world, or by another of the same scene and settings.
+  virtual void restore(const SavedState& state) = 0;
+};
+
 struct Capabilities {
   RemoteRuns* remote = nullptr;
   MayReduceOrder* reduced_order = nullptr;
   MayDivideSteps* divided_steps = nullptr;
   ReportsReactions* reactions = nullptr;
   ReportsContacts* contacts = nullptr;
+  SavesState* state = nullptr;
 };
 
 }  // namespace rigor

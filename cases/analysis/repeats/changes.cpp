@@ -55,6 +55,32 @@ std::vector<ChangedRun> beside_another(const RepeatedRun& run, std::string&) {
            }}};
 }
 
+// Half of the run, a world that is saved there and runs on, and the rest of the run from what was saved, in that world
+// or in a fresh one.
+RecordedStates restored_halfway(const RepeatedRun& run, bool in_fresh_world) {
+  const auto world = run.engine.load(run.scene, run.name.settings);
+  RecordedStates states;
+  states.add(*world);
+  const long half = run.steps / 2;
+  for (long n = 0; n < half; ++n) world->step(run.dt), states.add(*world);
+  const auto saved = world->capabilities().state->save();
+  for (long n = half; n < run.steps; ++n) world->step(run.dt);
+  const auto fresh = in_fresh_world ? run.engine.load(run.scene, run.name.settings) : nullptr;
+  World& next = fresh ? *fresh : *world;
+  next.capabilities().state->restore(*saved);
+  for (long n = half; n < run.steps; ++n) next.step(run.dt), states.add(next);
+  return states;
+}
+
+std::vector<ChangedRun> restored(const RepeatedRun& run, std::string& why_not) {
+  if (!run.engine.load(run.scene, run.name.settings)->capabilities().state) {
+    why_not = "the engine saves no state of this scene";
+    return {};
+  }
+  return {{"the same world", [run] { return restored_halfway(run, false); }},
+          {"a fresh world", [run] { return restored_halfway(run, true); }}};
+}
+
 std::vector<ChangedRun> with_threads(const RepeatedRun& run, std::string& why_not) {
   const auto& options = method_of(run.info, run.name.settings).options;
   const bool has = std::any_of(options.begin(), options.end(), [](const OptionInfo& o) { return o.name == "threads"; });
@@ -154,6 +180,7 @@ const std::vector<RepeatChange>& repeat_changes() {
       {"again", "the same scene, loaded again", true, loaded_again},
       {"after-another", "after another scene ran in the process", true, after_another},
       {"beside-another", "in turns with a second world in the process", true, beside_another},
+      {"restored", "saved halfway, and restored after the end", true, restored},
       {"threads", "with 1, 2 and 4 threads", true, with_threads},
       {"lanes", "with the kernels of each instruction set", true, with_lanes},
       {"order", "with rows in another order, three times", false, in_another_order},

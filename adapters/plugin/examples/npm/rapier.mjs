@@ -54,7 +54,7 @@ function addJoint(world, scene, joint, bodies) {
 
 serve({
   info: {
-    name: "rapier", version: RAPIER.version(), precision: "single", calls: ["run"],
+    name: "rapier", version: RAPIER.version(), precision: "single", calls: ["run", "save", "restore"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:fixed", "joint:hinge", "joints-with-contacts", "restitution", "friction:none",
                "friction:coulomb", "friction:infinite", "contact:plane-sphere", "contact:box-plane", "contact:capsule-plane",
                "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere", "contact:box-capsule",
@@ -63,9 +63,10 @@ serve({
                 options: [{ name: "iterations", meaning: "solver iterations: parts into which a step is divided", min: 1, max: 100, whole: true }] }],
   },
   load(scene, { track, options }) {
-    const matched = track === "matched", law = oneLaw(scene), world = new RAPIER.World(xyz(scene.gravity));
+    const matched = track === "matched", law = oneLaw(scene);
+    let world = new RAPIER.World(xyz(scene.gravity));
     if (matched || options.iterations) world.numSolverIterations = options.iterations ?? 1;
-    const bodies = scene.body.map((body) => bodyOf(world, body, law, !matched));
+    let bodies = scene.body.map((body) => bodyOf(world, body, law, !matched));
     for (const joint of scene.joint ?? []) addJoint(world, scene, joint, bodies);
     return {
       settings: { "solver iterations": world.numSolverIterations, sleeping: matched ? "off" : "on" },
@@ -82,6 +83,13 @@ serve({
         const { w, x, y, z } = body.rotation();
         return [...list(body.translation()), w, x, y, z, ...list(body.linvel()), ...list(body.angvel())];
       }),
+      save: () => world.takeSnapshot(),
+      restore(bytes) {
+        const restored = RAPIER.World.restoreSnapshot(bytes);
+        if (!restored) throw new Error("Rapier does not take this snapshot");
+        bodies = bodies.map(({ handle }) => restored.getRigidBody(handle));
+        world.free(), (world = restored);
+      },
       free: () => world.free(),
     };
   },

@@ -1,6 +1,7 @@
 // Shared code of this folder's engines: the protocol's loop over an engine { info, load(scene, settings) }, whose load
 // returns a world { step(dt, wrenches), rows(), settings, free() }, and helpers for conversions. A world with contacts()
-// returns the contact forces of its last step.
+// returns the contact forces of its last step. One with save() returns all that its next steps depend on, as bytes, and
+// restore(bytes) goes back to it.
 import { readSync, writeSync } from "node:fs";
 
 // What an engine or its runtime prints must not get among the answers. Import this before the engine.
@@ -26,6 +27,15 @@ const calls = {
   },
   contacts({ worlds }, { world }) {
     return { ok: true, contacts: worlds.get(world).of.contacts() };
+  },
+  save({ worlds }, { world }) {
+    const { time, of } = worlds.get(world);
+    return { ok: true, snapshot: JSON.stringify({ time, bytes: Buffer.from(of.save()).toString("base64") }) };
+  },
+  restore({ worlds }, { world, snapshot }) {
+    const { time, bytes } = JSON.parse(snapshot), one = worlds.get(world);
+    one.of.restore(new Uint8Array(Buffer.from(bytes, "base64"))), (one.time = time);
+    return { ok: true };
   },
   run(state, { world, dt, count, every }) {
     const samples = [];
