@@ -153,6 +153,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, int jobs) {
   app.set_version_flag("--version", "rigor " RIGOR_VERSION);
   app.set_help_flag("-h,--help", "print this and exit");
   app.allow_extras();
+  app.require_subcommand(0, 1);  // after the first, the name of a command is a word like others
   std::deque<Declared> all;
   for (const CommandRow& row : commands()) {
     Declared& declared = all.emplace_back(row, row.make(), std::make_shared<Options>(jobs > 0 ? jobs : cores()));

@@ -124,6 +124,7 @@ BOOST_AUTO_TEST_CASE(bad_words_and_numbers_are_answered_on_stderr_with_exit_2_an
       {{"truth", "stone", "--times", "-1"}, "--times"},
       {{"truth", "stone", "--times", "1,,2"}, "--times"},
       {{"truth", "stone", "--times", ""}, "--times: needs a value"},
+      {{"run", "list"}, "no case, family, file or folder 'list'"},  // which is also a command
       {{"run", ""}, "an empty word names no case"},
       {{"run", "stone", "--engine", ""}, "--engine: needs a value"},
       {{"run", "stone", "--dt", ""}, "--dt: needs a value"},

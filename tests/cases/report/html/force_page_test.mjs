@@ -15,7 +15,7 @@ const told = () =>
 
 try {
   await check("the force of a pair is plotted, and at rest it is the weight", async () => {
-    await open(browser, `#/${id}?dt=1/240&engines=ode,bullet&t=1.5`);
+    await open(browser, `#/${id}?dt=1/240&engines=ode~bullet&t=1.5`);
     await loaded(browser, id);
     await sleep(300);
     equal(await pressed(), "true", "the flag of the forces");

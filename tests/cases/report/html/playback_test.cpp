@@ -145,7 +145,8 @@ BOOST_AUTO_TEST_CASE(contact_forces_are_the_resultants_of_pairs_and_keep_their_s
   const UnpackedRun page = unpacked_run(packed_run(judged(scene, run), {}, 1, 300000).front());
   BOOST_TEST_REQUIRE(page.forces.size() == 1u);
   const UnpackedForces& pair = page.forces.front();
-  BOOST_TEST(pair.a == 0), BOOST_TEST(pair.b == 1);
+  BOOST_TEST(pair.a == 0);
+  BOOST_TEST(pair.b == 1);
   bool has_spike = false;
   for (std::size_t p = 0; p < page.points.size(); ++p) {
     const double size = page.points[p] == 777 ? 5000 : 30;

@@ -26,14 +26,17 @@ export function usualForce(runs) {
   return sizes.length ? sizes[Math.floor(0.75 * (sizes.length - 1))] : 0;
 }
 
-// Each pair's resultant in the last step before `time`. Pairs that do not touch are left out.
-export function forcesAt(pairs, time) {
+// Each pair's resultant in the last step before `time`, on the second body, or on the first if the second is fixed. Pairs
+// that do not touch are left out.
+export function forcesAt(pairs, time, bodies) {
   const found = [];
   for (const { a, b, times, points, forces, normals, sizes } of pairs ?? []) {
     let n = times.length - 1;
     while (n > 0 && times[n] > time + 1e-9) --n;
-    if (sizes[n] > 0 && Math.hypot(...normals[n]) > 0.5)
-      found.push({ a, b, point: points[n], force: forces[n], normal: normals[n], size: sizes[n] });
+    if (!(sizes[n] > 0) || Math.hypot(...normals[n]) < 0.5) continue;
+    const sign = bodies[b].fixed ? -1 : 1,
+      on = (v) => v.map((x) => sign * x);
+    found.push({ a, b, point: points[n], force: on(forces[n]), normal: on(normals[n]), size: sizes[n] });
   }
   return found;
 }

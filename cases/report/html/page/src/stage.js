@@ -318,7 +318,8 @@ export class Stage {
   forceful(layer) {
     if (!this.flags.forces || layer.isGone || !(this.usual > 0)) return { arrows: [], cones: [] };
     const { radius } = this.bounds();
-    return forceSegments(forcesAt(layer.forces, this.player.time), this.friction, radius / 3 / this.usual, radius);
+    const found = forcesAt(layer.forces, this.player.time, this.one.scene.bodies);
+    return forceSegments(found, this.friction, radius / 3 / this.usual, radius);
   }
 
   // The widest gap of any joint of each engine shown, as it was measured.
