@@ -15,7 +15,7 @@ sys.stdout = sys.stderr  # other output must not mix with the answers
 
 INFO = {"ok": True, "name": "toy-py", "version": "1", "precision": "double", "features": ["wrench", "fixed-body"],
         "methods": [{"name": "euler", "summary": "semi-implicit Euler, angular momentum kept in the world frame",
-                     "order": 1, "leapfrog_stagger": 0.5}], "calls": ["run"]}
+                     "order": 1, "leapfrog_stagger": 0.5}], "calls": ["run", "save", "restore"]}
 
 
 def cross(a, b):
@@ -87,6 +87,14 @@ class World:
                 body.step(dt, self.gravity, wrenches[i] if wrenches else [0.0] * 6)
         self.time += dt
 
+    def save(self):  # all that the next steps depend on
+        return json.dumps([self.time, [[body.x, body.q, body.v, body.w] for body in self.bodies]])
+
+    def restore(self, snapshot):
+        self.time, states = json.loads(snapshot)
+        for body, state in zip(self.bodies, states):
+            body.x, body.q, body.v, body.w = state
+
     def state(self):
         rows = [body.x + body.q + body.v + body.w for body in self.bodies]
         for i, row in enumerate(rows):
@@ -120,6 +128,10 @@ def answer(worlds, ask):
         return world.state()
     elif call == "run":
         return run(world, ask["dt"], ask["count"], ask["every"])
+    elif call == "save":
+        return {"ok": True, "snapshot": world.save()}
+    elif call == "restore":
+        world.restore(ask["snapshot"])
     elif call == "unload":
         del worlds[ask["world"]]
     else:

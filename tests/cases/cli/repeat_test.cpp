@@ -32,6 +32,39 @@ BOOST_AUTO_TEST_CASE(the_core_repeats_also_in_a_new_process) {
   BOOST_TEST(holds(ran, "copies"), ran);
 }
 
+// The toy, and copies of it that save too little or no text.
+BOOST_AUTO_TEST_CASE(a_plugin_that_restores_less_than_it_had_does_not_repeat) {
+  const std::string toy = RIGOR_SOURCE_DIR "/adapters/plugin/examples/toy.py";
+  folder.write("stone.toml", kThrown);
+  const auto answer_of = [&](const std::string& file) {
+    return run({"repeat", "stone.toml", "--plugin", "python3 " + file, "--engine", "toy-py", "--json"});
+  };
+  const auto restored = [](const Answer& answer) {
+    std::string said;
+    for (const Json& change : Json::parse(answer.out)[0].at("changes")) {
+      if (change.at("change") == "restored") said += change.at("status").get<std::string>() + " ";
+    }
+    return said;
+  };
+  const Answer whole = answer_of(toy);
+  BOOST_TEST_REQUIRE(whole.code == 0, whole.out + whole.err);
+  BOOST_TEST(restored(whole) == "same-bits same-bits ");
+
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = content(toy);
+    const std::size_t at = text.find(from);
+    BOOST_TEST_REQUIRE(at != std::string::npos);
+    folder.write("wrong.py", text.replace(at, from.size(), to));
+    return answer_of("wrong.py");
+  };
+  const Answer forgetful = with("body.x, body.q, body.v, body.w = state", "body.x, body.q, _, body.w = state");
+  BOOST_TEST(forgetful.code == 1, forgetful.out + forgetful.err);
+  BOOST_TEST(!holds(restored(forgetful), "same-bits"), restored(forgetful));
+  const Answer wordless = with("\"snapshot\": world.save()", "\"snapshot\": 1");
+  BOOST_TEST(wordless.code != 0, wordless.out);
+  BOOST_TEST(holds(wordless.out + wordless.err, "its snapshot is no text"), wordless.out + wordless.err);
+}
+
 BOOST_AUTO_TEST_CASE(hashes_agree_with_themselves_and_not_with_another_motion) {
   BOOST_TEST(run({"repeat", "cube.toml", "--engine", "core:rk4", "--record", "a.jsonl"}).code == 0);
   const Answer same = run({"repeat", "cube.toml", "--engine", "core:rk4", "--against", "a.jsonl"});
