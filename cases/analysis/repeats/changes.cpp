@@ -55,20 +55,19 @@ std::vector<ChangedRun> beside_another(const RepeatedRun& run, std::string&) {
            }}};
 }
 
-// Half of the run, a world that is saved there and runs on, and the rest of the run from what was saved, in that world
-// or in a fresh one.
-RecordedStates restored_halfway(const RepeatedRun& run, bool in_fresh_world) {
+// A part of the run, a world that is saved there and runs on, and the rest of the run from what was saved, in that
+// world or in a fresh one.
+RecordedStates restored_after(const RepeatedRun& run, long saved_after, bool in_fresh_world) {
   const auto world = run.engine.load(run.scene, run.name.settings);
   RecordedStates states;
   states.add(*world);
-  const long half = run.steps / 2;
-  for (long n = 0; n < half; ++n) world->step(run.dt), states.add(*world);
+  for (long n = 0; n < saved_after; ++n) world->step(run.dt), states.add(*world);
   const auto saved = world->capabilities().state->save();
-  for (long n = half; n < run.steps; ++n) world->step(run.dt);
+  for (long n = saved_after; n < run.steps; ++n) world->step(run.dt);
   const auto fresh = in_fresh_world ? run.engine.load(run.scene, run.name.settings) : nullptr;
   World& next = fresh ? *fresh : *world;
   next.capabilities().state->restore(*saved);
-  for (long n = half; n < run.steps; ++n) next.step(run.dt), states.add(next);
+  for (long n = saved_after; n < run.steps; ++n) next.step(run.dt), states.add(next);
   return states;
 }
 
@@ -77,8 +76,14 @@ std::vector<ChangedRun> restored(const RepeatedRun& run, std::string& why_not) {
     why_not = "the engine saves no state of this scene";
     return {};
   }
-  return {{"the same world", [run] { return restored_halfway(run, false); }},
-          {"a fresh world", [run] { return restored_halfway(run, true); }}};
+  // What a snapshot lacks may matter at one instant alone, as in the middle of an impact.
+  std::vector<ChangedRun> runs = {{"same world", [run] { return restored_after(run, run.steps / 2, false); }}};
+  for (const long eighths : {1, 2, 3, 4, 5, 6, 7}) {
+    const long saved_after = run.steps * eighths / 8;
+    runs.push_back(
+        {fmt::format("after {}", saved_after), [run, saved_after] { return restored_after(run, saved_after, true); }});
+  }
+  return runs;
 }
 
 std::vector<ChangedRun> with_threads(const RepeatedRun& run, std::string& why_not) {
@@ -180,7 +185,7 @@ const std::vector<RepeatChange>& repeat_changes() {
       {"again", "the same scene, loaded again", true, loaded_again},
       {"after-another", "after another scene ran in the process", true, after_another},
       {"beside-another", "in turns with a second world in the process", true, beside_another},
-      {"restored", "saved halfway, and restored after the end", true, restored},
+      {"restored", "saved on the way, and restored in this world or a fresh one", true, restored},
       {"threads", "with 1, 2 and 4 threads", true, with_threads},
       {"lanes", "with the kernels of each instruction set", true, with_lanes},
       {"order", "with rows in another order, three times", false, in_another_order},
