@@ -31,11 +31,12 @@ void visit_series_axis(Axis& axis, const Visitor& visitor) {
 }
 
 struct CompoundJoint {
-  using HasVectorsOfItsOwn = void;
   std::vector<SeriesAxis> axes;  // the first moves with a
 
   static constexpr JointDescriptor<CompoundJoint> descriptor() {
-    return {"compound", "Up to six hinges and sliders in series, from a to b."};
+    JointDescriptor<CompoundJoint> row = {"compound", "Up to six hinges and sliders in series, from a to b."};
+    row.has_own_vectors = true;
+    return row;
   }
   template <typename Joint, typename Visitor>
   static void visit_vectors(Joint& joint, const Visitor& visitor) {
@@ -44,13 +45,14 @@ struct CompoundJoint {
 };
 
 struct CompoundAxis {
-  using HasVectorsOfItsOwn = void;
   std::vector<SeriesAxis> axes;  // those of its compound joint
   std::size_t index = 0;         // which of them it is
 
   const SeriesAxis& own() const { return axes[index]; }
   static constexpr JointDescriptor<CompoundAxis> descriptor() {
-    return {"compound-axis", "One axis of a compound joint; it locks nothing by itself."};
+    JointDescriptor<CompoundAxis> row = {"compound-axis", "One axis of a compound joint; it locks nothing by itself."};
+    row.has_own_vectors = true;
+    return row;
   }
   // Its own first.
   template <typename Joint, typename Visitor>

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <optional>
-#include <type_traits>
 
 #include "core/base/math.h"
 
@@ -39,13 +38,6 @@ struct JointNumber {
   double Type::*value = nullptr;
 };
 
-// Whether a type visits vectors beside its fields, by a visit_vectors(joint, visitor). Written without concepts, for
-// some engines are built as C++17.
-template <typename Type, typename = void>
-struct has_vectors_of_its_own : std::false_type {};
-template <typename Type>
-struct has_vectors_of_its_own<Type, std::void_t<typename Type::HasVectorsOfItsOwn>> : std::true_type {};
-
 template <typename Type>
 struct JointDescriptor {
   const char* word;                             // of case files, JSON and features ("joint:hinge")
@@ -54,11 +46,12 @@ struct JointDescriptor {
   std::optional<unsigned> locks = {};           // a mask of Lock; empty where no mask describes the constraint
   FreeCoordinate coordinate = FreeCoordinate::none;
   JointNumber<Type> number = {};  // without a key if the type has none
+  bool has_own_vectors = false;   // Type::visit_vectors(joint, visitor) visits vectors that are no fields
 
   template <typename Joint, typename Visitor>
   static void visit(Joint& joint, const Visitor& visitor) {
     constexpr JointDescriptor descriptor = Type::descriptor();
-    if constexpr (has_vectors_of_its_own<Type>::value) Type::visit_vectors(joint, visitor);
+    if constexpr (descriptor.has_own_vectors) Type::visit_vectors(joint, visitor);
     for (const JointField<Type>& field : descriptor.fields)
       if (field.key) visitor(field.key, field.kind, joint.*field.value);
   }
