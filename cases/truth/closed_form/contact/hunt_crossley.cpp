@@ -15,17 +15,17 @@
 namespace rigor {
 namespace {
 
-constexpr std::size_t kOrder = 24;
-using Series = std::array<Extended, kOrder + 1>;  // of the overlap [m], in powers of the time since the piece began
+constexpr std::size_t kTerms = 24;
+using Series = std::array<Extended, kTerms + 1>;  // of the overlap [m], in powers of the time since the piece began
 
 Extended value_of(const Series& x, Extended t) {
   Extended sum = 0;
-  for (std::size_t n = kOrder + 1; n-- > 0;) sum = sum * t + x[n];
+  for (std::size_t n = kTerms + 1; n-- > 0;) sum = sum * t + x[n];
   return sum;
 }
 Extended rate_of(const Series& x, Extended t) {
   Extended sum = 0;
-  for (std::size_t n = kOrder; n > 0; --n) sum = sum * t + static_cast<Extended>(n) * x[n];
+  for (std::size_t n = kTerms; n > 0; --n) sum = sum * t + static_cast<Extended>(n) * x[n];
   return sum;
 }
 
@@ -95,9 +95,9 @@ class HuntCrossleyBounce final : public BodyMotion {
 
   Series series_at(Extended x, Extended v) const {
     Series series{};
-    std::array<Extended, kOrder + 1> u{};
+    std::array<Extended, kTerms + 1> u{};
     series[0] = x, u[0] = v;
-    for (std::size_t n = 0; n < kOrder; ++n) {
+    for (std::size_t n = 0; n < kTerms; ++n) {
       const Extended next = static_cast<Extended>(n + 1);
       Extended product = 0;  // of overlap and rate
       for (std::size_t j = 0; j <= n; ++j) product += series[j] * u[n - j];
@@ -111,7 +111,7 @@ class HuntCrossleyBounce final : public BodyMotion {
   Extended length_of(const Series& series) const {
     const Extended scale = std::abs(series[0]) + std::abs(series[1]) / std::sqrt(spring_);
     Extended length = 1 / std::sqrt(spring_);
-    for (const std::size_t n : {kOrder - 1, kOrder}) {
+    for (const std::size_t n : {kTerms - 1, kTerms}) {
       if (series[n] == 0) continue;
       const Extended ratio = kExtendedEpsilon * scale / std::abs(series[n]);
       length = std::min(length, std::pow(ratio, 1 / static_cast<Extended>(n)));
