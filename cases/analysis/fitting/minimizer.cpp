@@ -8,7 +8,13 @@
 namespace rigor {
 namespace {
 
-double clamped(double x) { return std::clamp(x, 0.0, 1.0); }
+// A point outside the box stands for its mirror image inside. Moved to a face, it would flatten the simplex.
+BoxPoint mirrored(BoxPoint point) {
+  for (double& x : point) {
+    x = std::abs(std::remainder(x, 2.0));  // from 0 to 1
+  }
+  return point;
+}
 
 double distance(const BoxPoint& a, const BoxPoint& b) {
   double most = 0;
@@ -24,7 +30,6 @@ class Simplex {
     for (std::size_t i = 0; i < start.at.size(); ++i) {
       BoxPoint point = start.at;
       point[i] += point[i] + options.size <= 1 ? options.size : -options.size;
-      point[i] = clamped(point[i]);
       corners_.push_back(tried(point));
     }
   }
@@ -35,7 +40,8 @@ class Simplex {
     while (true) {
       std::stable_sort(corners_.begin(), corners_.end(),
                        [](const auto& a, const auto& b) { return a.value < b.value; });
-      if (evaluations_ >= options_.most || diameter() < options_.tolerance) return corners_.front();
+      if (evaluations_ >= options_.most || diameter() < options_.tolerance)
+        return {mirrored(corners_.front().at), corners_.front().value};
       step();
     }
   }
@@ -43,7 +49,7 @@ class Simplex {
  private:
   BoxMinimum tried(const BoxPoint& point) {
     ++evaluations_;
-    return {point, function_(point)};
+    return {point, function_(mirrored(point))};
   }
 
   double diameter() const {
@@ -60,7 +66,7 @@ class Simplex {
       double middle = 0;
       for (std::size_t k = 0; k + 1 < corners_.size(); ++k) middle += corners_[k].at[i];
       middle /= static_cast<double>(corners_.size() - 1);
-      point[i] = clamped(middle + share * (middle - worst[i]));
+      point[i] = middle + share * (middle - worst[i]);
     }
     return tried(point);
   }
@@ -118,7 +124,7 @@ std::vector<BoxPoint> latin_hypercube(std::size_t count, std::size_t axes, unsig
 
 BoxMinimum nelder_mead(const std::function<double(const BoxPoint&)>& function, const BoxMinimum& start,
                        const SimplexOptions& options) {
-  // A face of the box flattens a simplex, which then can no longer leave it. A new one from there can.
+  // A new simplex may leave a place in which an old one has become too narrow.
   BoxMinimum best = start;
   std::size_t left = options.most;
   while (true) {

@@ -1,5 +1,5 @@
 // Minimises a function in the unit box without derivatives: a Latin hypercube, then the simplex method of Nelder and
-// Mead (Computer Journal 7 (1965) 308) from several of its points. Points outside the box are moved to its faces.
+// Mead (Computer Journal 7 (1965) 308) from several of its points. A point outside the box stands for its mirror image.
 #pragma once
 
 #include <functional>
