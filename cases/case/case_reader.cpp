@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cases/case/gate_reader.h"
+#include "cases/case/recording/recording_reader.h"
 #include "cases/case/run_selector.h"
 #include "cases/case/seconds_reader.h"
 #include "core/base/error.h"
@@ -58,6 +59,11 @@ void read_truth(const TableReader& table, const Vocabulary& words, Case& out) {
   const TomlValue kind = table.at("kind");
   out.truth = kind.choice(known);
   out.truth_where = kind.where();
+  if (out.truth == "recording") return read_recording(table, out);
+  for (const std::string& key : truth_keys()) {
+    const auto value = table.find(key);
+    if (value && key != "kind") value->refuse("a computed truth has no file; allowed: only with kind = \"recording\"");
+  }
 }
 
 // A run that comes from the same code as the truth agrees with it however wrong both are. One that a selector takes is
@@ -95,7 +101,7 @@ Case read_case_text(const std::string& text, const std::string& path, const std:
   if (const auto source = root.find("source")) out.source = source->text();
   out.scene = read_scene(root.at("scene"));
   read_run(root.at("run").table({"duration", "dt", "ensemble"}), out);
-  if (const auto truth = root.find("truth")) read_truth(truth->table({"kind"}), words, out);
+  if (const auto truth = root.find("truth")) read_truth(truth->table(truth_keys()), words, out);
   if (const auto gates = root.find("gate")) {
     for (const TableReader& table : gates->tables(gate_keys())) {
       for (Gate& gate : gates_of(read_gate_table(table, words), out)) out.gates.push_back(std::move(gate));

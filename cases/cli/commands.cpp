@@ -12,6 +12,7 @@ CommandRow conform_row();
 CommandRow diagnose_row();
 CommandRow diverge_row();
 CommandRow export_row();
+CommandRow fit_row();
 CommandRow gate_row();
 CommandRow history_row();
 CommandRow import_row();
@@ -53,6 +54,7 @@ const std::vector<NamedFact>& exit_codes() {
 
 const std::vector<NamedFact>& environment_variables() {
   static const std::vector<NamedFact> table = {
+      {"RIGOR_DATA", "the folder of recordings that cases name and do not bring along"},
       {"RIGOR_HOME", "the folder of suite/ and adapters/, in place of Rigor's own"},
       {"RIGOR_PLUGINS", "engines from outside, separated by colons; see --plugin"},
       {"COLUMNS", "the width of tables, 60 to 100"}};
@@ -61,10 +63,10 @@ const std::vector<NamedFact>& environment_variables() {
 
 const std::vector<CommandRow>& commands() {
   static const std::vector<CommandRow> table = {
-      list_row(),     run_row(),      gate_row(),    sweep_row(),      tune_row(),  merge_row(),
-      compare_row(),  baseline_row(), history_row(), open_row(),       trace_row(), truth_row(),
-      new_row(),      import_row(),   export_row(),  settle_row(),     show_row(),  conform_row(),
-      diagnose_row(), diverge_row(),  repeat_row(),  completion_row(),
+      list_row(),    run_row(),      gate_row(),     sweep_row(),   tune_row(),       fit_row(),
+      merge_row(),   compare_row(),  baseline_row(), history_row(), open_row(),       trace_row(),
+      truth_row(),   new_row(),      import_row(),   export_row(),  settle_row(),     show_row(),
+      conform_row(), diagnose_row(), diverge_row(),  repeat_row(),  completion_row(),
   };
   return table;
 }

@@ -14,7 +14,7 @@
 #include "cases/runner/process_pool.h"
 #include "cases/runner/simulate.h"
 #include "cases/truth/provenance.h"
-#include "cases/truth/truth.h"
+#include "cases/truth/recorded/recorded_motion.h"
 #include "core/base/error.h"
 #include "core/base/names_of.h"
 #include "core/engine/engine_failure.h"
@@ -177,7 +177,7 @@ class TruthCommand : public Command {
     const double end = std::max(definition.duration, *std::max_element(times.begin(), times.end()));
     say(fmt::format("the truth '{}' is {}", definition.truth, provenance_of(definition.truth)));
     return print_from_child("the truth of " + definition.id, timeout_.seconds, [&](const Channel& channel) {
-      const auto truth = make_truth(definition.truth, definition.scene, end);
+      const auto truth = truth_of(definition, end);
       if (!truth->caveat().empty()) channel.send(kNote + truth->caveat());
       send_truth(*truth, definition.scene, times, channel);
     });

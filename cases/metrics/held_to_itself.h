@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "cases/case/case.h"
 #include "core/engine/run_name.h"
 #include "core/scene/scene.h"
 
@@ -13,5 +14,7 @@ bool is_against_truth(const std::string& metric);
 
 // Whether a run is compared with itself, when this metric judges it against this truth or a reference's ensemble.
 bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene);
+// The same of a case, whose truth may be a synthetic recording that the run's engine made.
+bool is_held_to_itself(const Case& definition, const std::string& metric, const RunName& run);
 
 }  // namespace rigor

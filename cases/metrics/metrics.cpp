@@ -33,6 +33,8 @@ MetricRow joint_gap_rate();
 MetricRow joint_twist();
 MetricRow joint_twist_rate();
 MetricRow linear_momentum_drift();
+MetricRow mean_position_error();
+MetricRow mean_rotation_error();
 MetricRow orientation_error();
 MetricRow orthonormality_error();
 MetricRow penetration();
@@ -83,6 +85,8 @@ const std::vector<MetricRow>& metrics() {
       joint_twist(),
       joint_twist_rate(),
       linear_momentum_drift(),
+      mean_position_error(),
+      mean_rotation_error(),
       orientation_error(),
       orthonormality_error(),
       penetration(),

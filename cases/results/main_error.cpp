@@ -21,6 +21,8 @@ double worst_of(const CaseResult& result, const std::string& name) {
 }  // namespace
 
 std::string main_error(const CaseResult& result) {
+  if (result.definition.truth == "recording")
+    return worst_of(result, "mean_position_error") > 0 ? "mean_position_error" : "mean_rotation_error";
   constexpr double kMoves = 1e-9;  // m and rad: less is rounding
   for (const std::string& name : headline_metrics()) {
     if (worst_of(result, name) > kMoves) return name;

@@ -1,4 +1,5 @@
 #include "cases/results/result_json.h"
+#include "cases/results/trial_results.h"
 #include "core/base/json.h"
 
 #include <algorithm>
@@ -124,6 +125,24 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
     cell.settings.emplace_back(name, value.get<std::string>());
 }
 
+// Of each trial its values, and of each mean its spread.
+void add_trials(const Cell& cell, Json& json) {
+  const std::vector<TrialResult> trials = trials_of(cell);
+  for (const TrialResult& trial : trials) {
+    Json row = {{"trial", trial.name}, {"status", word_of(trial.status)}, {"metrics", trial.metrics}};
+    if (!trial.reason.empty()) row["reason"] = trial.reason;
+    json["trials"].push_back(std::move(row));
+  }
+  for (const auto& [name, metric] : json["metrics"].items()) {
+    const auto spread = spread_over(trials, name);
+    if (!spread) continue;
+    metric["trials"] = {{"count", spread->count},
+                        {"standard_deviation", spread->standard_deviation},
+                        {"median", spread->median},
+                        {"worst", {{"trial", spread->worst}, {"value", spread->worst_value}}}};
+  }
+}
+
 Json json_of(const Furthest& furthest) { return {furthest.value, furthest.time, furthest.body}; }
 
 Furthest furthest_from(const Json& json, const Scene& scene) {
@@ -173,6 +192,7 @@ Json json_of(const Cell& cell, const Scene& scene) {
   json["reduced_order"] = json_of(cell.reduced_order);
   json["sub_step"] = cell.sub_step ? Json(*cell.sub_step) : Json(nullptr);
   json["metrics"] = json_of(cell.metrics, scene);
+  add_trials(cell, json);
   json["by_scheme"] = json_of(cell.scheme, scene);
   json["settings"] = Json::object();
   for (const auto& [name, value] : cell.settings) json["settings"][name] = value;

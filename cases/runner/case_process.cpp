@@ -8,12 +8,14 @@
 #include <map>
 #include <optional>
 
+#include "cases/case/recording/recording_reader.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/ensemble.h"
 #include "cases/runner/executor.h"
 #include "cases/runner/journal/case_journal.h"
 #include "cases/runner/shards/shard.h"
 #include "cases/runner/stable_step.h"
+#include "cases/truth/recorded/recorded_motion.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 #include "core/scene/contact_laws.h"
@@ -291,6 +293,7 @@ std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& pa
 void run_case(const Results& grid, const CaseResult& planned, const EngineTable& engines, const GridOptions& options,
               const Channel& channel) {
   const Case& definition = planned.definition;
+  if (!missing_recording(definition).empty()) return;
   Journal journal(journal_of(planned, grid, options.share, options), plan_of(grid, planned, engines, options));
   forget_what_is_wrong(journal, grid, planned, engines, options);
   const auto known_truth = journal.found().find(Journal::kTruth);
@@ -302,7 +305,7 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   // A jointed scene's truth is dear, and chaotic past what its case asks for.
   const bool is_long = searches_steps(planned, options) && definition.scene.joints.empty();
   const double seconds = is_long ? stability_horizon(definition) : definition.duration;
-  const auto truth = make_truth(definition.truth, definition.scene, seconds);
+  const auto truth = truth_of(definition, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
   for (const auto& recorder : options.recorders) {
     Recording kept = truth ? recorder->of_truth(definition, *truth, facts) : Recording();

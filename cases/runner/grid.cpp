@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "cases/case/recording/recording_reader.h"
 #include "cases/case/selection.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
@@ -68,7 +69,9 @@ bool is_named_by_gates(const RunName& run, const Case& definition, const std::ve
 
 // The search would take hundreds of runs of half a minute each. Several touching bodies have large errors at coarse
 // steps long before they blow up.
-std::string why_no_stable_step(const Scene& scene) {
+std::string why_no_stable_step(const Case& definition) {
+  if (definition.truth == "recording") return "not searched for where the truth is a recording, which ends";
+  const Scene& scene = definition.scene;
   const long touching = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                       [](const Body& body) { return body.collides && !body.fixed; });
   return touching > 1 ? "not searched for where more than one moving body can touch" : "";
@@ -80,6 +83,7 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
   CaseResult result;
   result.definition = definition;
   const bool only_judged = scope.only_judged && !definition.gates.empty();
+  const std::string missing = missing_recording(definition);
   for (std::size_t run = 0; run < grid.runs.size(); ++run) {
     if (run >= asked_for && !is_named_by_gates(grid.runs[run], definition, grid.engines)) {
       skip(result.stable_steps.emplace_back(), SkipReason::not_asked_for);
@@ -91,14 +95,16 @@ CaseResult plan_case(const Case& definition, const Results& grid, std::size_t as
       if (only_judged && !is_judged(definition, grid.runs[run], dt, grid.engines)) continue;
       Cell cell;
       cell.run = run, cell.dt = dt;
-      const std::string why = why_unsupported(info, grid.runs[run].settings, definition.scene, dt.seconds);
+      const std::string why =
+          missing.empty() ? why_unsupported(info, grid.runs[run].settings, definition.scene, dt.seconds) : missing;
       if (!why.empty()) cell.status = Status::unsupported, cell.reason = why;
       result.cells.push_back(cell);
       shortest = std::min(shortest, dt.seconds);
     }
     StableStepResult stable;
-    std::string why = why_unsupported(info, grid.runs[run].settings, definition.scene, shortest);
-    if (why.empty() && scope.stable_steps) why = why_no_stable_step(definition.scene);
+    std::string why = missing;
+    if (why.empty()) why = why_unsupported(info, grid.runs[run].settings, definition.scene, shortest);
+    if (why.empty() && scope.stable_steps) why = why_no_stable_step(definition);
     if (!why.empty())
       stable.status = Status::unsupported, stable.reason = why;
     else if (!scope.stable_steps)

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cases/case/recording/recording_reader.h"
 #include "cases/metrics/held_to_itself.h"
 #include "cases/metrics/measures/joints/reaction_difference.h"
 #include "cases/metrics/measures/measuring.h"
 #include "cases/runner/case_process.h"
 #include "cases/runner/ensemble.h"
 #include "cases/runner/simulate.h"
+#include "cases/runner/trials/trials.h"
 #include "cases/runner/twin_run.h"
 #include "cases/truth/provenance.h"
 #include "core/scene/contact_laws.h"
@@ -76,7 +78,7 @@ std::map<std::string, MetricValue> measured(const JudgedRun& run, const RunName&
         is_asked_for({row.name}, definition, options) || (!row.is_costly && options.only_metrics.empty());
     MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
     MetricValue& value = values[row.name] = condensed(found, run.trajectory);
-    value.is_held_to_itself = is_held_to_itself(definition.truth, row.name, name, definition.scene);
+    value.is_held_to_itself = is_held_to_itself(definition, row.name, name);
     if (found.measurement) series.push_back({row.name, std::move(found.measurement->series)});
   }
   return values;
@@ -96,7 +98,10 @@ TruthFacts facts_of(const Case& definition, const Truth* truth) {
   return facts;
 }
 
-JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
+namespace {
+
+// Of one start.
+JudgedCell run_once(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, const TruthFacts& facts, const GridOptions& options,
                     const TruthOnSteps& truth_on_steps, const EnsembleReference* reference) {
   const auto begin = std::chrono::steady_clock::now();
@@ -149,6 +154,23 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   }
   cell.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return {cell, options.spreads ? path_of(run.trajectory, definition.duration, scene.bodies.size()) : Path()};
+}
+
+}  // namespace
+
+JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
+                    const Truth* truth, const TruthFacts& facts, const GridOptions& options,
+                    const TruthOnSteps& truth_on_steps, const EnsembleReference* reference) {
+  const auto recording = recording_of(definition);
+  if (!recording || recording->trials.size() < 2)
+    return run_once(planned, definition, engines, run_name, truth, facts, options, truth_on_steps, reference);
+  JudgedCell judged = run_trials(
+      definition, recording, options,
+      [&](const Case& trial, const Truth& of_trial, const TruthFacts& facts_of_trial, const GridOptions& chosen) {
+        return run_once(planned, trial, engines, run_name, &of_trial, facts_of_trial, chosen, {}, nullptr);
+      });
+  judged.cell.run = planned.run, judged.cell.dt = planned.dt, judged.cell.trajectory = planned.trajectory;
+  return judged;
 }
 
 }  // namespace rigor

@@ -25,6 +25,7 @@ TruthRow planar_truth();
 TruthRow principal_torque_truth();
 TruthRow projectile_truth();
 TruthRow pushed_truth();
+TruthRow recording_truth();
 TruthRow reference_truth();
 TruthRow rolling_truth();
 TruthRow slider_truth();
@@ -38,18 +39,31 @@ TruthRow welded_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
-      asymmetric_top_truth(),   axisymmetric_top_truth(),
-      bounce_truth(),           cardan_shaft_truth(),
-      events_truth(),           heavy_top_truth(),
-      line_impacts_truth(),     linkage_truth(),
-      oscillator_truth(),       pendulum_truth(),
-      pendulum_impacts_truth(), planar_truth(),
-      principal_torque_truth(), projectile_truth(),
-      pushed_truth(),           reference_truth(),
-      rolling_truth(),          slider_truth(),
-      sliding_truth(),          soft_bounce_truth(),
-      sprung_ball_truth(),      steady_precession_truth(),
-      toppling_truth(),         transmission_truth(),
+      asymmetric_top_truth(),
+      axisymmetric_top_truth(),
+      bounce_truth(),
+      cardan_shaft_truth(),
+      events_truth(),
+      heavy_top_truth(),
+      line_impacts_truth(),
+      linkage_truth(),
+      oscillator_truth(),
+      pendulum_truth(),
+      pendulum_impacts_truth(),
+      planar_truth(),
+      principal_torque_truth(),
+      projectile_truth(),
+      pushed_truth(),
+      recording_truth(),
+      reference_truth(),
+      rolling_truth(),
+      slider_truth(),
+      sliding_truth(),
+      soft_bounce_truth(),
+      sprung_ball_truth(),
+      steady_precession_truth(),
+      toppling_truth(),
+      transmission_truth(),
       welded_truth(),
   };
   return table;

@@ -8,7 +8,7 @@
 
 #include "cases/runner/process_pool.h"
 #include "cases/truth/provenance.h"
-#include "cases/truth/truth.h"
+#include "cases/truth/recorded/recorded_motion.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
 #include "core/engine/engine_failure.h"
@@ -106,7 +106,7 @@ DivergenceTruth judged_by_truth(const Case& definition, const Divergence& found,
   }
   const auto body = static_cast<std::size_t>(parting.body);
   const FromChild answer = from_child(limit, [&] {
-    const auto made = make_truth(definition.truth, definition.scene, std::max(parting.time, found.steps.seconds));
+    const auto made = truth_of(definition, std::max(parting.time, found.steps.seconds));
     BodyTable table(definition.scene.bodies.size());
     made->at(parting.time, table.columns());
     return packed(std::as_const(table).columns().body(body), made->error(parting.time));

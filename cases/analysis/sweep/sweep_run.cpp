@@ -6,10 +6,11 @@
 #include <map>
 
 #include "cases/analysis/sweep/sweep.h"
+#include "cases/case/recording/recording_reader.h"
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/case_process.h"
-#include "cases/truth/truth.h"
+#include "cases/truth/recorded/recorded_motion.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
 
@@ -48,8 +49,9 @@ class JobProcess {
     const Case definition = sweep_.definition_of(job);
     Rows rows = sweep_.rows_of(job);
     std::vector<std::size_t> left;
+    const std::string missing = missing_recording(definition);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const std::string why = why_not(rows[i], definition.scene);
+      const std::string why = missing.empty() ? why_not(rows[i], definition.scene) : missing;
       if (why.empty()) {
         left.push_back(i);
       } else {
@@ -58,7 +60,7 @@ class JobProcess {
       }
     }
     if (left.empty()) return;
-    const auto truth = make_truth(definition.truth, definition.scene, definition.duration);
+    const auto truth = truth_of(definition, definition.duration);
     const TruthFacts facts = facts_of(definition, truth.get());
     const auto work = [&](std::size_t i, const Channel& to) {
       judge(rows[i], definition, truth.get(), facts);

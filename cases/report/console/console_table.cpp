@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cases/report/console/console_matrix.h"
+#include "cases/report/console/recorded_table.h"
 #include "cases/report/layout.h"
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explained_error.h"
@@ -196,15 +197,17 @@ std::string full_block(const Results& results, const CaseResult& result) {
   const StepSize dt = coarsest_dt(result);
   std::string text = title_of(result) + "  " + wrapped(truth_sentence(result), 2) + "\n";
   for (const Message& message : explanations(results, result)) text += "  " + wrapped(message.text, 2) + "\n";
-  text += table_of(results, result, dt) + explained_text(explained_rows(results, result, dt));
+  text += table_of(results, result, dt) + explained_text(explained_rows(results, result, dt)) +
+          recorded_table(results, result);
   for (const Message& message : work_precision_messages(results, result))
     text += "  " + wrapped(message.text, 2) + "\n";
   return text + gate_lines(result, true);
 }
 
 bool has_run_held_to_itself(const CaseResult& result) {
-  return std::any_of(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
-    const auto found = cell.metrics.find("position_error");
+  const char* metric = result.definition.truth == "recording" ? "mean_position_error" : "position_error";
+  return std::any_of(result.cells.begin(), result.cells.end(), [&](const Cell& cell) {
+    const auto found = cell.metrics.find(metric);
     return found != cell.metrics.end() && found->second.is_held_to_itself;
   });
 }
@@ -218,7 +221,7 @@ std::string brief_block(const Results& results, const CaseResult& result) {
     text += "  " + wrapped("warning: " + result.truth->caveat, 4) + "\n";
   if (!reasons.empty()) text += "  " + wrapped(reasons.front().text, 2) + "\n";
   if (has_run_held_to_itself(result)) text += "  In brackets: the truth comes from the run's own code.\n";
-  text += table_of(results, result, coarsest_dt(result)) + gate_lines(result, true);
+  text += table_of(results, result, coarsest_dt(result)) + recorded_table(results, result) + gate_lines(result, true);
   if (reasons.size() > 1)
     text += fmt::format("  {} more reason{}: --verbose\n", reasons.size() - 1, reasons.size() == 2 ? "" : "s");
   return text;
@@ -264,6 +267,8 @@ std::string truth_sentence(const CaseResult& result) {
   const TruthFacts& facts = *result.truth;
   const std::string brackets = (has_run_held_to_itself(result) ? " What it finds of these stands in brackets." : "") +
                                std::string(facts.caveat.empty() ? "" : " ") + facts.caveat;
+  if (definition.truth == "recording")
+    return fmt::format("truth: recording; it is {}.{}", provenance_of(definition.truth), brackets);
   if (facts.horizon >= definition.duration) {
     return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s; it is {}.{}", definition.truth,
                        facts.error_at_end, definition.duration, provenance_of(definition.truth), brackets);

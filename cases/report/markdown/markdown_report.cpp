@@ -20,6 +20,7 @@
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/printed_command.h"
 #include "cases/report/wording/recommendation.h"
+#include "cases/report/wording/recorded_error.h"
 #include "cases/report/wording/verdict_matrix.h"
 
 namespace rigor {
@@ -119,6 +120,8 @@ std::string headline(const Results& results, const CaseResult& result, SaidBefor
   std::string text = fmt::format("## {}: {}\n\n{}\n\n", plain(result.definition.id), plain(result.definition.title),
                                  told(plain(truth_sentence(result))));
   if (!is_long) text += table(results, result, coarsest_dt(result)) + "\n";
+  if (const TextTable recorded = recorded_errors(results, result); !recorded.rows.empty())
+    text += table(recorded) + "\n";
   for (const Message& message : explanations(results, result)) text += told(plain(message.text)) + "\n\n";
   for (const Message& message : work_precision_messages(results, result)) text += told(plain(message.text)) + "\n\n";
   for (const std::string& line : is_long ? answers_in_short(result) : answers_in_full(result))

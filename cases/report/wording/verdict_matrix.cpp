@@ -26,8 +26,11 @@ std::string error_text(const Cell& cell, const std::string& metric) {
   const double value = value_of(cell, metric);
   if (std::isnan(value)) return "";
   const bool is_length = metric == "position_error", is_angle = metric == "orientation_error";
-  const std::string text =
-      is_length || is_angle ? rounded(value) + (is_length ? " m" : " rad") : rounded(100 * value) + " %";
+  const std::string unit = unit_of_metric(metric);
+  const bool is_of_recording = metric == "mean_position_error" || metric == "mean_rotation_error";
+  const std::string text = is_of_recording         ? fmt::format("{} {}", rounded(value), unit)
+                           : is_length || is_angle ? rounded(value) + (is_length ? " m" : " rad")
+                                                   : rounded(100 * value) + " %";
   return cell.metrics.at(metric).is_held_to_itself ? fmt::format(" ({})", text) : " " + text;
 }
 

@@ -1,0 +1,162 @@
+#include "cases/case/recording/recording_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "core/base/content_hash.h"
+#include "core/base/error.h"
+#include "core/scene/shapes/mesh_file.h"
+#include "core/scene/toml/file_reader.h"
+#include "core/scene/toml/scene_reader.h"
+
+namespace rigor {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Beside the case file, else in the folder RIGOR_DATA; empty if it is in neither.
+std::string found_file(const TomlValue& file) {
+  const std::string name = file.text();
+  std::error_code error;
+  if (fs::path(name).is_absolute()) return fs::exists(name, error) ? name : "";
+  try {
+    const std::string beside = path_beside(file.path(), name);
+    if (fs::exists(beside, error)) return beside;
+  } catch (const InputError& fault) {
+    file.refuse(shown(fault.what(), 400));
+  }
+  const char* folder = std::getenv("RIGOR_DATA");
+  if (folder == nullptr || *folder == '\0') return "";
+  const std::string there = (fs::path(folder) / name).string();
+  return fs::exists(there, error) ? there : "";
+}
+
+struct ParsedFile {
+  std::uint64_t content = 0;
+  std::vector<RecordedTrial> trials;
+};
+
+// Sweeps and fits ask for the same file again and again.
+std::shared_ptr<const ParsedFile> parsed_file(const std::string& path, const std::string& group, const Scene& scene) {
+  constexpr std::size_t kMostKept = 16;
+  static std::map<std::string, std::shared_ptr<const ParsedFile>> kept;
+  std::error_code error;
+  std::string key = fmt::format("{}\n{}\n{} {}", path, group, fs::file_size(path, error),
+                                fs::last_write_time(path, error).time_since_epoch().count());
+  for (const Body& body : scene.bodies) key += fmt::format("\n{} {}", body.name, body.fixed);
+  if (const auto found = kept.find(key); found != kept.end()) return found->second;
+  const std::string text = read_text_file(path);
+  const auto parsed =
+      std::make_shared<const ParsedFile>(ParsedFile{content_hash(text), read_trials(text, path, group, scene)});
+  if (kept.size() >= kMostKept) kept.clear();
+  return kept[key] = parsed;
+}
+
+int read_start_fit(const TomlValue& value) {
+  // Of three samples a parabola has no residual. More than 10000 are no start any more.
+  constexpr int kFewest = 4, kMost = 10000;
+  const double count = value.number();
+  if (count != std::floor(count) || count < kFewest || count > kMost)
+    value.refuse(fmt::format("found {}; allowed: a whole number from {} to {}", count, kFewest, kMost));
+  return static_cast<int>(count);
+}
+
+// The start needs the rate of each part that was measured.
+void check_start_is_known(const TableReader& truth, const MotionRecording& recording) {
+  for (const RecordedTrial& trial : recording.trials) {
+    for (const RecordedBody& body : trial.bodies) {
+      const auto samples = static_cast<int>(body.times.size());
+      if (recording.start_fit > samples)
+        truth.at("start_fit")
+            .refuse(fmt::format("found {}, and trial '{}' has {} samples; allowed: at most so many",
+                                recording.start_fit, trial.name, samples));
+      if (recording.start_fit > 0) continue;
+      const bool has_rates = (body.positions.empty() || !body.velocities.empty()) &&
+                             (body.orientations.empty() || !body.angular_velocities.empty());
+      if (!has_rates)
+        truth.at("file").refuse(
+            fmt::format("{} has no {}, so the start is not known; allowed: these columns, or truth.start_fit = N, "
+                        "which determines the start from N samples",
+                        recording.path, body.velocities.empty() ? "vx, vy, vz" : "wx, wy, wz"));
+    }
+  }
+}
+
+}  // namespace
+
+const Keys& truth_keys() {
+  static const Keys keys = {"kind",  "file",   "position_noise", "orientation_noise",
+                            "group", "length", "start_fit",      "synthetic"};
+  return keys;
+}
+
+namespace {
+
+// Null if the file is missing.
+std::shared_ptr<const MotionRecording> read(const TableReader& truth, const Case& of) {
+  MotionRecording recording;
+  recording.position_noise = truth.at("position_noise").positive();
+  recording.orientation_noise = truth.at("orientation_noise").positive();
+  if (const auto group = truth.find("group")) recording.group = group->text();
+  if (const auto length = truth.find("length")) recording.length = length->positive();
+  if (const auto count = truth.find("start_fit")) recording.start_fit = read_start_fit(*count);
+  if (const auto engine = truth.find("synthetic")) recording.synthetic = engine->text();
+  const TomlValue file = truth.at("file");
+  recording.path = found_file(file);
+  if (recording.path.empty()) return nullptr;
+  const std::shared_ptr<const ParsedFile> parsed = parsed_file(recording.path, recording.group, of.scene);
+  recording.content = parsed->content, recording.trials = parsed->trials;
+  check_start_is_known(truth, recording);
+  return std::make_shared<const MotionRecording>(std::move(recording));
+}
+
+}  // namespace
+
+void read_recording(const TableReader& truth, Case& out) {
+  const auto recording = read(truth, out);
+  if (!recording) return;
+  check_covers(*recording, out.duration, truth.at("file").label());
+  start_from(*recording, 0, out.scene);
+}
+
+std::string file_of(const Case& definition) {
+  const std::string& where = definition.truth_where;  // file:line:column
+  const std::size_t column = where.rfind(':');
+  const std::size_t line = column == std::string::npos || column == 0 ? column : where.rfind(':', column - 1);
+  return line == std::string::npos || line == 0 ? definition.id : where.substr(0, line);
+}
+
+std::shared_ptr<const MotionRecording> recording_of(const Case& definition) {
+  if (definition.truth != "recording") return nullptr;
+  // Judging asks for the same one for each metric of each trial.
+  static std::string last;
+  static std::shared_ptr<const MotionRecording> kept;
+  const char* folder = std::getenv("RIGOR_DATA");
+  const std::string key =
+      fmt::format("{}\n{}\n{}", folder == nullptr ? "" : folder, file_of(definition), definition.text);
+  if (kept && key == last) return kept;
+  const TomlFile file = TomlFile::parse(definition.text, file_of(definition));
+  kept = read(file.root(case_keys()).at("truth").table(truth_keys()), definition);
+  last = key;
+  return kept;
+}
+
+std::string missing_recording(const Case& definition) {
+  if (definition.truth != "recording" || recording_of(definition)) return "";
+  return fmt::format(
+      "its recording is neither beside the case file nor in the folder that RIGOR_DATA names; it is published here: {}",
+      definition.source.empty() ? "the case file does not say where" : definition.source);
+}
+
+void check_covers(const MotionRecording& recording, double duration, const std::string& what) {
+  constexpr double kRounding = 1e-6;  // of times written with seven digits
+  if (recording.longest() >= duration * (1 - kRounding)) return;
+  throw InputError(fmt::format("{}: {} ends after {:g} s, and the run after {:g} s; allowed: a run of at most {:g} s",
+                               what, recording.path, recording.longest(), duration, recording.longest()));
+}
+
+}  // namespace rigor

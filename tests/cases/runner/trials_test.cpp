@@ -1,0 +1,142 @@
+#include "cases/runner/trials/trials.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "cases/case/recording/recording_reader.h"
+#include "cases/report/wording/recorded_error.h"
+#include "cases/results/result_json.h"
+#include "cases/results/trial_results.h"
+#include "core/base/json.h"
+#include "tests/cases/recorded_case.h"
+#include "tests/core/scene/toml/refusal.h"
+
+using namespace rigor;
+
+namespace {
+
+Results results_of(const std::string& path, const std::string& run = "core:velocity-verlet") {
+  const Case definition = read_case(path, "slide", test::words());
+  Results grid =
+      plan_grid({definition}, {parse_run_name(run, test::words().engines)}, engines(), {.stable_steps = false});
+  GridOptions options;
+  options.stable_steps = options.is_thorough = false;
+  run_grid(grid, engines(), options, [](std::size_t, std::size_t) {});
+  return grid;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cases_runner_trials)
+
+BOOST_AUTO_TEST_CASE(each_trial_runs_from_its_own_start_and_the_mean_is_over_them) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 4, 1));
+  const Results grid = results_of(folder.write("slide.toml", test::recorded_case(0.4, "slide.csv")));
+  const Cell& cell = grid.cases[0].cells[0];
+  BOOST_TEST_CONTEXT(cell.reason) { BOOST_TEST_REQUIRE((cell.status == Status::pass)); }
+  const std::vector<TrialResult> trials = trials_of(cell);
+  BOOST_TEST_REQUIRE(trials.size() == 4u);
+  BOOST_TEST(trials[2].name == "t2");
+  // Too much friction by 0.1: after t it lags g t²/20. The mean over 0.2 s is a third of that at the end, 6.5 mm: 1.6 %
+  // of 0.4 m, and the mean of 40 samples is 1.9 % more. The noise adds less than 1 % to so large a distance.
+  double sum = 0, worst = 0;
+  std::string name;
+  for (const TrialResult& trial : trials) {
+    const double error = trial.metrics.at("mean_position_error");
+    BOOST_TEST(std::abs(error - 100 * 9.81 * 0.1 * 0.04 / 6 / 0.4 * 1.038) < 0.05);
+    sum += error;
+    if (error > worst) worst = error, name = trial.name;
+  }
+  BOOST_TEST(std::abs(cell.metrics.at("mean_position_error").value - sum / 4) < 1e-12);
+  const auto spread = spread_over(trials, "mean_position_error");
+  BOOST_TEST_REQUIRE(spread.has_value());
+  BOOST_TEST(spread->worst == name);
+  BOOST_TEST(spread->worst_value == worst);
+  BOOST_TEST(spread->standard_deviation > 0);
+  const TextTable table = recorded_errors(grid, grid.cases[0]);
+  BOOST_TEST_REQUIRE(table.rows.size() == 2u);
+  BOOST_TEST(table.rows[1][2].find(" ± ") != std::string::npos);
+  BOOST_TEST(table.rows[1][4].find(" in " + name) != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_judged_below_the_noise) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 3, 1));
+  const Results grid = results_of(folder.write("slide.toml", test::recorded_case(0.3, "slide.csv")));
+  for (const TrialResult& trial : trials_of(grid.cases[0].cells[0])) {
+    const double noise = 100 * 1.5957691216057308 * test::kPositionNoise / 0.4;
+    BOOST_TEST(trial.metrics.at("mean_position_error") >= noise);
+    BOOST_TEST(trial.metrics.at("mean_position_error") < 1.2 * noise);
+    BOOST_TEST(!trial.metrics.contains("position_error"));  // it asks for a truth to a micrometre
+  }
+}
+
+BOOST_AUTO_TEST_CASE(results_keep_the_trials) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 3, 1));
+  const Results grid = results_of(folder.write("slide.toml", test::recorded_case(0.4, "slide.csv")));
+  const Json json = json_of(grid.cases[0].cells[0], grid.cases[0].definition.scene);
+  BOOST_TEST(json.at("trials").size() == 3u);
+  BOOST_TEST(json.at("trials").at(1).at("trial") == "t1");
+  const Json& trials = json.at("metrics").at("mean_position_error").at("trials");
+  BOOST_TEST(trials.at("count") == 3);
+  BOOST_TEST(trials.at("worst").at("value").get<double>() >= trials.at("median").get<double>());
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_file_makes_the_case_unsupported_and_says_where_it_is_published) {
+  Folder folder;
+  const Results grid = results_of(folder.write("slide.toml", test::recorded_case(0.3, "elsewhere.csv")));
+  const Cell& cell = grid.cases[0].cells[0];
+  BOOST_TEST((cell.status == Status::unsupported));
+  BOOST_TEST(cell.reason.find("RIGOR_DATA") != std::string::npos);
+  BOOST_TEST(cell.reason.find("made by a test") != std::string::npos);
+  BOOST_TEST(grid.cases[0].error == "");
+}
+
+BOOST_AUTO_TEST_CASE(the_folder_of_data_has_what_does_not_stand_beside_the_case) {
+  Folder folder, data;
+  data.write("slide.csv", test::sliding_recording(0.3, 2, 1));
+  const std::string path = folder.write("slide.toml", test::recorded_case(0.3, "slide.csv"));
+  ::setenv("RIGOR_DATA", data.path.c_str(), 1);
+  const Case definition = read_case(path, "slide", test::words());
+  const auto recording = recording_of(definition);
+  ::unsetenv("RIGOR_DATA");
+  BOOST_TEST_REQUIRE(recording != nullptr);
+  BOOST_TEST(recording->trials.size() == 2u);
+  BOOST_TEST((definition.scene.bodies[0].velocity == recording->trials[0].bodies[0].velocities[0]));
+  BOOST_TEST(missing_recording(definition) != "");
+}
+
+BOOST_AUTO_TEST_CASE(bad_keys_are_refused_with_their_place) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 2, 1));
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    std::string text = test::recorded_case(0.3, "slide.csv");
+    text.replace(text.find(from), from.size(), to);
+    const std::string path = folder.write("slide.toml", text);
+    return refusal_of([&] { read_case(path, "slide", test::words()); });
+  };
+  const auto says = [&](const std::string& message, const std::string& part) {
+    BOOST_TEST_CONTEXT(message) { BOOST_TEST((message.find(part) != std::string::npos)); }
+  };
+  says(refusal("position_noise = 0.0001", "position_noise = 0"), "slide.toml:24:18: truth.position_noise: found 0");
+  says(refusal("orientation_noise = 0.001", ""), "orientation_noise: missing");
+  says(refusal("duration = 0.2", "duration = 0.3"), "ends after 0.2 s, and the run after 0.3 s");
+  says(refusal("kind = \"recording\"", "kind = \"sliding\""), "truth.file: a computed truth has no file");
+  says(refusal("group = \"trial\"", "group = \"trail\""), "did you mean 'trial'?");
+  says(refusal("length = 0.4", "length = -1"), "truth.length: found -1");
+  says(refusal("length = 0.4", "start_fit = 100"), "found 100, and trial 't0' has 41 samples");
+  says(refusal("length = 0.4", "start_fit = 3"), "a whole number from 4 to 10000");
+  says(refusal("slide.csv", "../slide.csv"), "not in the case file's folder");
+}
+
+BOOST_AUTO_TEST_CASE(runs_of_the_engine_that_made_a_synthetic_recording_are_no_witness) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 2, 1));
+  const std::string text = test::recorded_case(0.3, "slide.csv") + "synthetic = \"core\"\n";
+  const Results grid = results_of(folder.write("slide.toml", text));
+  BOOST_TEST(grid.cases[0].cells[0].metrics.at("mean_position_error").is_held_to_itself);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
