@@ -1,7 +1,6 @@
 """The results of a run or a gate: cells, metrics, series and trajectories."""
 from __future__ import annotations
 
-import html
 import json
 import os
 import pathlib
@@ -206,44 +205,5 @@ class Results:
         return page if os.path.isfile(page) else os.path.join(target, "report.md")
 
     def _repr_html_(self) -> str:
+        from .notebook import matrix_html
         return matrix_html(self)
-
-
-_COLOURS = {"stable": "#d9f0d9", "drifting": "#fdf3cf", "gaining": "#fbe0c4", "overlapping": "#fbe0c4", "collapsed": "#f7cfc9",
-            "tunnelled": "#f7cfc9", "blown up": "#f0b5ae"}
-_STYLE = "border:1px solid #ccc;padding:3px 8px;text-align:left;color:#111;"
-
-
-def matrix_html(results: Results) -> str:
-    """Cases and engines at the headline's step, with each cell's verdict and main error."""
-    headline = results.json["headline_dt"]
-    engines = list(dict.fromkeys(cell.engine for cell in results.cells))
-    parts = [f"<div><b>Rigor</b>, dt = {html.escape(headline)} s: {html.escape(repr(results)[15:-1])}</div>",
-             '<table style="border-collapse:collapse">',
-             f'<tr><th style="{_STYLE}">case</th>', *(f'<th style="{_STYLE}">{html.escape(engine)}</th>' for engine in engines), "</tr>"]
-    for case in results.json["cases"]:
-        name = results._name(case["id"])
-        own = [cell for cell in results.cells if cell.case == name]
-        steps = list(dict.fromkeys(cell.dt for cell in own))
-        dt = headline if headline in steps or not steps else steps[0]
-        label = name if dt == headline else f"{name} (dt = {dt} s)"
-        parts.append(f'<tr><td style="{_STYLE}">{html.escape(label)}</td>')
-        for engine in engines:
-            cell = next((one for one in own if one.engine == engine and one.dt == dt), None)
-            parts.append(_matrix_cell(cell, case.get("main_error", "")))
-        parts.append("</tr>")
-    return "".join([*parts, "</table>"])
-
-
-def _matrix_cell(cell: Cell | None, metric: str) -> str:
-    if cell is None:
-        return f'<td style="{_STYLE}"></td>'
-    ran = cell.verdict is not None
-    text = cell.verdict if ran else cell.status
-    if ran and cell.status not in ("pass", "diverged"):
-        text = f"{text}, {cell.status}"
-    value = cell.metrics.get(metric)
-    size = f"<br><small>{value:.3g} {html.escape(value.unit)}</small>" if value is not None and not value.why else ""
-    colour = _COLOURS.get(cell.verdict or "", "#e4e4e4" if cell.status == "unsupported" else "#f0b5ae")
-    title = html.escape(f"{metric}: {cell.reason}" if cell.reason else metric, quote=True)
-    return f'<td title="{title}" style="{_STYLE}background:{colour}">{html.escape(text or "")}{size}</td>'
