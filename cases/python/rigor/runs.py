@@ -255,14 +255,36 @@ def conform(engine: typing.Any, *, plugins: typing.Any = (), in_process: bool | 
 
 
 class Diagnosis(Printed):
-    """Which known mistake explains an engine's error, as ``rigor diagnose --json`` says."""
+    """Which known mistake explains an engine's error. True if there is no error beyond what its scheme makes."""
+
+    def __init__(self, done: program.Completed):
+        super().__init__(done, True)
+        self.verdict: str = self.json["verdict"]
+        """``right``; ``named`` (one mistake explains the error); ``alike`` (several do); ``none`` (no known mistake does); ``untried``."""
+        self.suspects: list[dict[str, typing.Any]] = self.json["suspects"]
+        """The best first: ``mistakes``, ``explains`` (its share of the error, 0 to 1), ``cases`` with what is ``left``."""
+        leaders = self.suspects[:self.json["leaders"]] if self.verdict in ("named", "alike") else []
+        self.mistakes: tuple[str, ...] = tuple("; and ".join(suspect["mistakes"]) for suspect in leaders)
+        """The mistakes that explain the error, a sentence each. Those of ``alike`` move alike in these cases."""
+
+    def __bool__(self) -> bool:
+        return self.verdict == "right"
 
     def __repr__(self) -> str:
-        return json.dumps(self.json, indent=2)
+        found = {"right": "no error beyond what its scheme makes", "untried": "none of its motions could be computed",
+                 "none": f"looks like none of {self.json['known_mistakes']} known mistakes",
+                 "named": f"looks like: {', '.join(self.mistakes)}", "alike": f"looks like one of: {', '.join(self.mistakes)}"}
+        lines = [f"{self.json['engine']}: {found[self.verdict]}, in {len(self.json['cases'])} cases"]
+        lines += [f"  {suspect['explains']:7.2%} of the error: {'; and '.join(suspect['mistakes'])}" for suspect in self.suspects]
+        return "\n".join([*lines, *(f"  not seen: {failure}" for failure in self.json["not_seen"])])
 
 
 def diagnose(cases: Cases = None, *, engine: typing.Any, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = None,
              **options: typing.Any) -> Diagnosis:
-    """Names the known mistake that explains the error of `engine`. Without cases those that tell mistakes apart."""
+    """Names the known mistake that explains the error of `engine`. Without cases those that tell mistakes apart.
+
+    ``rigor.diagnose("ballistic/free-fall", engine=MyEngine).mistakes`` is ``("gravity off by 5 %",)``, say. One case takes
+    seconds, all of them minutes.
+    """
     call = _Call("diagnose", cases, engine, plugins, in_process, {"json": True, **options})
-    return Diagnosis(program.checked(call.run(progress)), True)
+    return Diagnosis(program.checked(call.run(progress)))
