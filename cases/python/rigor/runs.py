@@ -130,9 +130,14 @@ class Sweep:
     """The rows of a sweep, one a cell."""
 
     def __init__(self, folder: str, keep: object, text: str):
-        self.folder, self._keep, self.text = folder, keep, text
+        self.folder: str = folder
+        """Of ``sweep.csv`` and ``sweep.jsonl``. A folder without a name of yours goes with this object."""
+        self.text: str = text
+        """What the command line prints."""
+        self._keep = keep
         with open(os.path.join(folder, "sweep.jsonl"), encoding="utf-8") as file:
             self.rows: list[dict[str, typing.Any]] = [json.loads(line) for line in file]
+            """A dict for each cell, with the keys of sweep.jsonl in SI units."""
 
     def __repr__(self) -> str:
         return f"<rigor.Sweep of {len(self.rows)} cells in {self.folder!r}>"
@@ -166,10 +171,14 @@ class Printed:
     """What a command printed: ``text``, and ``json`` if the command has it. True if its exit code is 0."""
 
     def __init__(self, done: program.Completed, as_json: bool):
-        self.exit_code = done.code
-        self.notes = tuple(done.notes)
+        self.exit_code: int = done.code
+        """Of the program: 0, or 1 if something does not hold."""
+        self.notes: tuple[str, ...] = tuple(done.notes)
+        """The sentences on stderr."""
         self.text: str = done.out.decode("utf-8", "replace")
+        """What the command line prints."""
         self.json: typing.Any = json.loads(self.text) if as_json else None
+        """The answer of ``--json``; None for a command without it."""
 
     def __bool__(self) -> bool:
         return self.exit_code == 0
@@ -186,6 +195,7 @@ class Tuned(Printed):
         self.engine: str | None = None
         """The winner's run name, with its options."""
         self.dt: str | None = None
+        """The winner's step [s] as written: ``"1/30"``."""
         for line in self.text.splitlines():
             if line.strip().startswith("rigor run ") and self.engine is None:
                 words = shlex.split(line)
@@ -234,8 +244,10 @@ class Conformance(Printed):
         self.checks: list[dict[str, typing.Any]] = self.json["checks"]
         """Rows with ``name``, ``asks``, ``answer`` (holds, broken, not-asked); of a broken one ``sent``, ``came`` and ``due``."""
         self.diagnosis: dict[str, typing.Any] | None = self.json.get("diagnosis")
+        """The known mistake that explains what is broken, with the keys of ``Diagnosis.json``; None if none was looked for."""
 
     def broken(self) -> list[dict[str, typing.Any]]:
+        """The rows of ``checks`` whose answer is ``broken``."""
         return [check for check in self.checks if check["answer"] == "broken"]
 
     def __repr__(self) -> str:
