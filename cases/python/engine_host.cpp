@@ -73,6 +73,14 @@ std::string interpreter() {
   return text.substr(begin, text.find('"', begin) - begin);
 }
 
+bool is_copy = false;    // this process is one that the engine forked
+bool has_moved = false;  // the engine changed the current folder
+
+int hear(const char* event, PyObject*, void*) {
+  if (std::strcmp(event, "os.chdir") == 0) has_moved = true;  // of os.fchdir, too
+  return 0;
+}
+
 // Starts Python once. Extension modules look for Python's symbols in the global scope, and Rigor opens plug-ins
 // locally.
 bool start_python() {
@@ -87,7 +95,8 @@ bool start_python() {
     PyConfig_Clear(&config);
     if (PyStatus_Exception(status)) return false;
     // A process that the engine forks ends with the cell.
-    pthread_atfork(nullptr, nullptr, [] { prctl(PR_SET_PDEATHSIG, SIGKILL); });
+    pthread_atfork(nullptr, nullptr, [] { is_copy = true, prctl(PR_SET_PDEATHSIG, SIGKILL); });
+    PySys_AddAuditHook(hear, nullptr);
     PyEval_SaveThread();  // each call takes the lock itself
     return true;
   }();
@@ -155,8 +164,8 @@ class Apart {
   ~Apart() {
     engines_arithmetic = Arithmetic();
     rigors_.restore();
-    // An engine that closed the descriptor loses the cell's reports, and the cell says so.
-    if (fchdir(folder_) != 0) return;
+    // An engine that also closed the descriptor loses the cell's reports, and the cell says so.
+    if (has_moved && fchdir(folder_) == 0) has_moved = false;
   }
   Apart(const Apart&) = delete;
   Apart& operator=(const Apart&) = delete;
@@ -169,7 +178,6 @@ class Apart {
 // Runs `work` with Python's lock. A copy of the process that an engine forked ends here.
 template <typename Work>
 rigor_status with_python(rigor_text text, const Work& work) {
-  const pid_t process = getpid();
   const Apart apart;
   if (!start_python()) {
     write(text, "Python cannot be started from " RIGOR_PYTHON_LIBRARY);
@@ -180,12 +188,12 @@ rigor_status with_python(rigor_text text, const Work& work) {
   try {
     status = work();
   } catch (py::error_already_set& error) {
-    if (getpid() != process) _exit(kExitOfFork);
+    if (is_copy) _exit(kExitOfFork);
     status = failure(error, text);
   } catch (const std::exception& error) {
     write(text, error.what());
   }
-  if (getpid() != process) _exit(kExitOfFork);
+  if (is_copy) _exit(kExitOfFork);
   PyGILState_Release(lock);
   return status;
 }
