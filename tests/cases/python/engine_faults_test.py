@@ -70,6 +70,7 @@ FAULTS = {
     "exits oddly": Fault("step", ODD_EXIT, "crashed", r"called sys.exit\(it has no text\)"),
     "exits hard": Fault("step", "os._exit(0)", "crashed", r"exit(\(| code )0"),
     "kills itself": Fault("step", "os.kill(os.getpid(), 11)", "crashed", "SEGV"),
+    "closes all files": Fault("step", "os.closerange(3, 1000)", "crashed", "Bad file descriptor|closed its"),
     "interrupts": Fault("step", "raise KeyboardInterrupt", "crashed", "KeyboardInterrupt"),
     "diverges": Fault("step", "raise rigor.DivergedError('too fast')", "diverged", "too fast"),
     "refuses a run that has begun": Fault("step", "raise rigor.UnsupportedError('no more')", "crashed invalid", "no more"),
