@@ -1,12 +1,17 @@
 // An engine of Python as a shared library behind rigor_engine.h. Python runs inside the cell's process. The library is
 // copied once for each engine; the file of the same name that ends in .json says which class it loads (engines.py).
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <pthread.h>
 #include <pybind11/embed.h>
 #include <pybind11/numpy.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cfenv>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -14,6 +19,10 @@
 #include <string>
 
 #include "adapters/plugin/rigor_engine.h"
+
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 namespace py = pybind11;
 
@@ -64,6 +73,14 @@ std::string interpreter() {
   return text.substr(begin, text.find('"', begin) - begin);
 }
 
+bool is_copy = false;    // this process is one that the engine forked
+bool has_moved = false;  // the engine changed the current folder
+
+int hear(const char* event, PyObject*, void*) {
+  if (std::strcmp(event, "os.chdir") == 0) has_moved = true;  // of os.fchdir, too
+  return 0;
+}
+
 // Starts Python once. Extension modules look for Python's symbols in the global scope, and Rigor opens plug-ins
 // locally.
 bool start_python() {
@@ -77,6 +94,9 @@ bool start_python() {
     if (!PyStatus_Exception(status)) status = Py_InitializeFromConfig(&config);
     PyConfig_Clear(&config);
     if (PyStatus_Exception(status)) return false;
+    // A process that the engine forks ends with the cell.
+    pthread_atfork(nullptr, nullptr, [] { is_copy = true, prctl(PR_SET_PDEATHSIG, SIGKILL); });
+    PySys_AddAuditHook(hear, nullptr);
     PyEval_SaveThread();  // each call takes the lock itself
     return true;
   }();
@@ -113,10 +133,52 @@ rigor_status failure(py::error_already_set& error, rigor_text text) {
   }
 }
 
+// How this thread rounds, and whether it flushes denormal numbers to zero.
+class Arithmetic {
+ public:
+  void restore() const {
+    if (std::fegetround() != rounding_) std::fesetround(rounding_);
+    if (flags_now() != flags_) set_flags(flags_);
+  }
+
+ private:
+#ifdef __SSE__
+  static constexpr unsigned kRaised = 0x3f;  // the exceptions so far, which change with each number
+  static unsigned flags_now() { return _mm_getcsr() & ~kRaised; }
+  static void set_flags(unsigned flags) { _mm_setcsr(flags); }
+#else
+  static unsigned flags_now() { return 0; }
+  static void set_flags(unsigned) {}
+#endif
+
+  int rounding_ = std::fegetround();
+  unsigned flags_ = flags_now();
+};
+
+thread_local Arithmetic engines_arithmetic;
+
+// Keeps the engine's arithmetic and its current folder apart from Rigor's, which judges the run in the same process.
+class Apart {
+ public:
+  Apart() { engines_arithmetic.restore(); }
+  ~Apart() {
+    engines_arithmetic = Arithmetic();
+    rigors_.restore();
+    // An engine that also closed the descriptor loses the cell's reports, and the cell says so.
+    if (has_moved && fchdir(folder_) == 0) has_moved = false;
+  }
+  Apart(const Apart&) = delete;
+  Apart& operator=(const Apart&) = delete;
+
+ private:
+  const Arithmetic rigors_;
+  static inline const int folder_ = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
+};
+
 // Runs `work` with Python's lock. A copy of the process that an engine forked ends here.
 template <typename Work>
 rigor_status with_python(rigor_text text, const Work& work) {
-  const pid_t process = getpid();
+  const Apart apart;
   if (!start_python()) {
     write(text, "Python cannot be started from " RIGOR_PYTHON_LIBRARY);
     return RIGOR_FAILED;
@@ -126,12 +188,12 @@ rigor_status with_python(rigor_text text, const Work& work) {
   try {
     status = work();
   } catch (py::error_already_set& error) {
-    if (getpid() != process) _exit(kExitOfFork);
+    if (is_copy) _exit(kExitOfFork);
     status = failure(error, text);
   } catch (const std::exception& error) {
     write(text, error.what());
   }
-  if (getpid() != process) _exit(kExitOfFork);
+  if (is_copy) _exit(kExitOfFork);
   PyGILState_Release(lock);
   return status;
 }
@@ -208,12 +270,13 @@ rigor_status read(rigor_world* world, double* time, double* const columns[RIGOR_
   return with_world(world, text, [&] {
     py::object answer = world->read();
     const auto bodies = static_cast<py::ssize_t>(world->bodies);
+    // A masked array is one of NumPy's too, and what it masks is no state.
+    const bool is_plain = Py_IS_TYPE(answer.ptr(), py::detail::npy_api::get().PyArray_Type_);
     const auto is_due = [&](const py::array& array) {
       return array.dtype().is(py::dtype::of<double>()) && array.ndim() == 2 && array.shape(0) == bodies &&
              array.shape(1) == RIGOR_COLUMNS;
     };
-    if (!py::isinstance<py::array>(answer) || !is_due(py::reinterpret_borrow<py::array>(answer)))
-      answer = world->check_state(answer);
+    if (!is_plain || !is_due(py::reinterpret_borrow<py::array>(answer))) answer = world->check_state(answer);
     if (const py::ssize_t lost = copy(py::reinterpret_borrow<py::array>(answer), columns); lost >= 0) {
       write(text, world->host_world.attr("lost")(lost).cast<std::string>());
       return RIGOR_DIVERGED;

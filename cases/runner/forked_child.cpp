@@ -64,19 +64,8 @@ void drop_handlers() {
   }
 }
 
-[[noreturn]] void be_the_child(const Job& job, const Pipe& messages, const Pipe& words, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);  // it died before the line above
-  drop_handlers();
-  std::signal(SIGXFSZ, SIG_IGN);  // but a file that grows too large is a write that fails
-  // What a run frees it takes again: given back to the kernel between, a tenth of a cell's time is page faults.
-  constexpr int kLargestKept = 32 << 20;  // bytes; the most that glibc allows
-  mallopt(M_MMAP_THRESHOLD, kLargestKept), mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-  const rlimit no_core_file{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core_file);
-  dup2(words.write.number(), STDOUT_FILENO);
-  dup2(words.write.number(), STDERR_FILENO);
-  const Channel channel(messages.write.number());
+// Does the job and sends how it ended.
+void do_and_tell(const Job& job, const Channel& channel) {
   try {
     job.work(channel);
     channel.send_frame('d', "");
@@ -90,7 +79,30 @@ void drop_handlers() {
   } catch (...) {
     channel.send_frame('e', "an exception of an unknown type");
   }
-  _exit(0);
+}
+
+[[noreturn]] void be_the_child(const Job& job, const Pipe& messages, const Pipe& words, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // it died before the line above
+  drop_handlers();
+  std::signal(SIGXFSZ, SIG_IGN);  // but a file that grows too large is a write that fails
+  // What a run frees it takes again: given back to the kernel between, a tenth of a cell's time is page faults.
+  constexpr int kLargestKept = 32 << 20;  // bytes; the most that glibc allows
+  mallopt(M_MMAP_THRESHOLD, kLargestKept), mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  const rlimit no_core_file{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core_file);
+  dup2(words.write.number(), STDOUT_FILENO);
+  dup2(words.write.number(), STDERR_FILENO);
+  // An exception that left this function would continue the parent's work in the child, and remove the parent's files.
+  try {
+    do_and_tell(job, Channel(messages.write.number()));
+    _exit(0);
+  } catch (const std::exception& error) {  // an engine may close the channel
+    std::fprintf(stderr, "%s\n", error.what());
+    std::fflush(stderr);
+  } catch (...) {
+  }
+  _exit(1);
 }
 
 // The last line with something on it, its control characters blanked.

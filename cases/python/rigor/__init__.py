@@ -21,8 +21,8 @@ _HOMES = {
     "engines": ("Engine", "World"),
     "motion": ("Closeness", "Trajectory", "close", "trace", "truth"),
     "results": ("Cell", "Metric", "Results"),
-    "runs": ("Conformance", "Diagnosis", "Printed", "Sweep", "Tuned", "command", "conform", "diagnose", "diverge", "fit", "gate", "repeat", "run",
-             "sweep", "tune"),
+    "answers": ("Conformance", "Diagnosis", "Divergence", "Printed", "Tuned"),
+    "runs": ("Sweep", "command", "conform", "diagnose", "diverge", "fit", "gate", "repeat", "run", "sweep", "tune"),
     "scene": ("Body", "Scene"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

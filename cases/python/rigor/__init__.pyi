@@ -4,7 +4,8 @@ from .case import (Case as Case, load as load)
 from .engines import (Engine as Engine, World as World)
 from .motion import (Closeness as Closeness, Trajectory as Trajectory, close as close, trace as trace, truth as truth)
 from .results import (Cell as Cell, Metric as Metric, Results as Results)
-from .runs import (Conformance as Conformance, Diagnosis as Diagnosis, Printed as Printed, Sweep as Sweep, Tuned as Tuned, command as command, conform as conform, diagnose as diagnose, diverge as diverge, fit as fit, gate as gate, repeat as repeat, run as run, sweep as sweep, tune as tune)
+from .answers import (Conformance as Conformance, Diagnosis as Diagnosis, Divergence as Divergence, Printed as Printed, Tuned as Tuned)
+from .runs import (Sweep as Sweep, command as command, conform as conform, diagnose as diagnose, diverge as diverge, fit as fit, gate as gate, repeat as repeat, run as run, sweep as sweep, tune as tune)
 from .scene import (Body as Body, Scene as Scene)
 
 __version__: str

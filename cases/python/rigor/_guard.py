@@ -19,21 +19,28 @@ class Fault(Exception):
     """What an engine did against the interface, as a sentence."""
 
 
+def _words(value: object, text_of: typing.Callable[[object], str] = str) -> str:
+    try:
+        return text_of(value)
+    except BaseException:  # the user's own __str__ may do anything
+        return "it has no text"
+
+
 def failure(error: BaseException) -> tuple[str, str]:
     """The status of an answer, and its sentence."""
     if isinstance(error, UnsupportedError):
-        return "unsupported", str(error) or "the engine gives no reason"
+        return "unsupported", _words(error) or "the engine gives no reason"
     if isinstance(error, DivergedError):
-        return "diverged", str(error) or "the engine gives no reason"
+        return "diverged", _words(error) or "the engine gives no reason"
     if isinstance(error, Fault):
         return "failed", str(error)
     if isinstance(error, SystemExit):
-        return "failed", f"the engine called sys.exit({'' if error.code is None else repr(error.code)})"
+        return "failed", f"the engine called sys.exit({'' if error.code is None else _words(error.code, repr)})"
     frames = traceback.extract_tb(error.__traceback__)
     # The innermost frame that is the user's own.
     own = [frame for frame in frames if os.path.dirname(frame.filename) != os.path.dirname(__file__)] or list(frames)
     place = f" ({os.path.basename(own[-1].filename)}, line {own[-1].lineno}, in {own[-1].name})" if own else ""
-    return "failed", f"{type(error).__name__}: {error}{place}"
+    return "failed", f"{type(error).__name__}: {_words(error)}{place}"
 
 
 def _kind(value: typing.Any) -> str:
@@ -72,6 +79,8 @@ class GuardedWorld:
             raise Fault(f"{who} returned {_kind(state)} that is no array ({error}); {due}") from None
         if array.dtype.kind not in "fiu":
             raise Fault(f"{who} returned an array of dtype {array.dtype}; float64 is due")
+        if isinstance(state, np.ma.MaskedArray) and np.ma.is_masked(state):
+            raise Fault(f"{who} returned an array with masked numbers; each number of each body is due")
         if array.shape != (n, 13):
             raise Fault(f"{who} returned an array of shape {array.shape}; {due}, a row for each body")
         return np.asarray(array, dtype=np.float64)
@@ -120,6 +129,11 @@ class ServedWorld:
             process = os.getpid()
             try:
                 answer = self.guarded.step(dt) if wrenches is None else self.guarded.step(dt, wrenches)
+            except UnsupportedError as error:
+                if self.time == 0:
+                    raise
+                # It would hide a run that has begun.
+                raise Fault(f"{self.guarded.who}'s step() raised UnsupportedError at t = {self.time:.6g} s: {_words(error)}; load() refuses a scene") from None
             finally:
                 if os.getpid() != process:  # a copy that the engine forked, and let run on
                     os._exit(_EXIT_OF_FORK)

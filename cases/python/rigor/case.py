@@ -33,12 +33,15 @@ class Case:
         self.name: str = name
         """What results call the case."""
         self.title: str = facts["title"]
+        """What the case shows, in a line."""
         self.source: str = facts["source"]
+        """Where the case comes from, as a paper or a file; empty if it does not say."""
         self.duration: float = facts["duration"]
         """s"""
         self.dt: tuple[str, ...] = tuple(facts["dt"])
         """The steps [s] as written, ``("1/30", "1/240")``."""
         self.ensemble: int = facts["ensemble"]
+        """The number of starts, up to 1e-6 m apart, that each run is repeated from; 0 for one run."""
         self.truth: str = facts["truth"]
         """A row of ``rigor list truths``, or ``"none"``."""
         self.gates: tuple[typing.Mapping[str, typing.Any], ...] = tuple(facts["gates"])

@@ -51,6 +51,7 @@ class Engine:
     name: str = ""
     """1 to 64 letters, digits, '.', '_' and '-'; by default the class's name in small letters."""
     version: str = "1"
+    """Of the engine, for reports."""
     precision: str = "double"
     """``"double"`` or ``"single"``: gates widen their limits for the rounding of single precision."""
     features: typing.Sequence[str] = ()

@@ -15,7 +15,8 @@ class InputError(RigorError, ValueError):
 
     def __init__(self, text: str, path: str | None = None):
         super().__init__(text)
-        self.path = path
+        self.path: str | None = path
+        """The place of the value; None if the input is no file and no dict."""
 
 
 class UnsupportedError(RigorError):
@@ -35,7 +36,8 @@ class Interrupted(KeyboardInterrupt):
 
     def __init__(self, text: str, out: str | None = None):
         super().__init__(text)
-        self.out = out
+        self.out: str | None = out
+        """The folder with the finished cells; None for a call that keeps none."""
 
 
 class RigorWarning(UserWarning):

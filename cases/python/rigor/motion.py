@@ -203,7 +203,16 @@ class Closeness:
     """The answer of ``close``: true or false, with the worst instant as its text."""
 
     def __init__(self, holds: bool, text: str, distance: float, time: float, body: str):
-        self.holds, self.text, self.distance, self.time, self.body = holds, text, distance, time, body
+        self.holds: bool = holds
+        """Whether the motions agree within the bound."""
+        self.text: str = text
+        """The answer as a sentence, with the worst instant."""
+        self.distance: float = distance
+        """The distance at the worst instant, in m, or in rad for a bound on angles; nan if it is no finite number."""
+        self.time: float = time
+        """s: the worst instant."""
+        self.body: str = body
+        """The body that is farthest off then."""
 
     def __bool__(self) -> bool:
         return self.holds

@@ -1,7 +1,6 @@
 """The results of a run or a gate: cells, metrics, series and trajectories."""
 from __future__ import annotations
 
-import html
 import json
 import os
 import pathlib
@@ -19,6 +18,20 @@ _WORDS = {"inf": float("inf"), "-inf": float("-inf"), "nan": float("nan")}
 _FAILURES = ("fail", "unexpected-pass", "diverged", "crashed", "timed-out", "invalid")
 
 
+def _read(path: str) -> dict[str, typing.Any]:
+    try:
+        with open(path, encoding="utf-8") as file:
+            found: typing.Any = json.load(file)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise InputError(f"{path}: is no JSON: {error}") from None
+    schema = found.get("schema") if isinstance(found, dict) else None
+    if schema != _SCHEMA:
+        raise InputError(f"{path}: its 'schema' is {schema}; this version of rigor reads {_SCHEMA}")
+    return found
+
+
 def number(value: typing.Any) -> float:
     """A number of results.json; nan for none."""
     return _WORDS[value] if isinstance(value, str) else float("nan") if value is None else float(value)
@@ -28,20 +41,23 @@ class Metric(float):
     """A metric's value, with what belongs to it. It is a float; nan if there is no value, and then ``why`` says so."""
 
     unit: str
+    """The unit of the value, as ``"m"``; ``"1"`` for a number without one."""
     why: str
     """Why there is no value; empty if there is one."""
     worst_time: float
     """s: the instant of the value; nan if it has none."""
     worst_body: str
+    """The body that the value belongs to; empty if it belongs to none."""
     first_second: float
-    """The largest up to t = 1 s; nan if the metric has none."""
+    """The largest up to t = 1 s, in `unit`; nan if the metric has none."""
     compared_until: float
-    """s"""
+    """s: the end of the comparison with the truth; nan if there is none."""
     held_to_itself: bool
     """The run's own code made the truth: the value shows convergence, not correctness."""
 
     @classmethod
     def of(cls, row: typing.Any, unit: str) -> Metric:
+        """A metric from its row of results.json. `unit` counts where the row has none."""
         row = row if isinstance(row, dict) else {"value": row}
         metric = cls(number(row.get("value")))
         worst = row.get("worst") or {}
@@ -57,21 +73,28 @@ class Cell:
     """One run: a case, an engine and a step."""
 
     def __init__(self, row: dict[str, typing.Any], name: str, units: dict[str, str], folder: str, keep: object):
-        self.row = row
+        self.row: dict[str, typing.Any] = row
         """The cell of results.json."""
         self.case: str = name
+        """The id of the case, or its name if it is a ``rigor.Case`` of your own."""
         self.engine: str = row["engine"]
+        """The run's name, with its method and options: ``"core:rk4"``."""
         self.dt: str = row["dt"]
         """s, as written: ``"1/30"``."""
         self.dt_seconds: float = row["dt_seconds"]
+        """s"""
         self.status: str = row["status"]
         """``pass fail known-deviation unexpected-pass unsupported diverged crashed timed-out invalid``"""
         self.reason: str = row["reason"]
+        """Why the cell did not run to its end; empty if it did."""
         self.verdict: str | None = row["verdict"]["word"] if row.get("verdict") else None
         """``stable drifting overlapping gaining collapsed tunnelled`` or ``blown up``; None if the cell did not run."""
         self.cpu_seconds: float = number(row["cpu_seconds"])
+        """s of CPU time of the run."""
         self.wall_seconds: float = number(row["wall_seconds"])
+        """s by the clock."""
         self.metrics: dict[str, Metric] = {metric: Metric.of(value, units.get(metric, "")) for metric, value in row["metrics"].items()}
+        """The metrics by their names; see ``metric``."""
         self._units, self._folder, self._keep = units, folder, keep
 
     def __repr__(self) -> str:
@@ -96,12 +119,13 @@ class Cell:
 
     def trajectory(self) -> Trajectory:
         """The run, read from its file straight into one array."""
-        import mmap
-
         from . import _native
         from .motion import Trajectory
-        with open(self._file(), "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as text:
-            return _native.read_states(text).view(Trajectory)
+        path = self._file()
+        try:
+            return _native.read_states(path.read_bytes()).view(Trajectory)
+        except ValueError as error:
+            raise RigorError(f"{path}: {error}") from None
 
     def series(self, metric: str) -> np.ndarray:
         """A metric over time: a structured array with ``time`` [s] and ``value``.
@@ -125,22 +149,33 @@ class Cell:
         return np.array(pairs, dtype=[("time", "<f8"), ("value", "<f8")])
 
 
-class Results:
-    """What ``run`` and ``gate`` return."""
+_SCHEMA = 2  # of results.json, as results.schema.json has it
 
-    def __init__(self, folder: str, keep: object, names: dict[str, str], exit_code: int, notes: typing.Sequence[str], text: str):
-        with open(os.path.join(folder, "results.json"), encoding="utf-8") as file:
-            self.json: dict[str, typing.Any] = json.load(file)
+
+class Results:
+    """What ``run`` and ``gate`` return. ``Results.from_folder`` reads those of an earlier run."""
+
+    def __init__(self, folder: str, keep: object, names: dict[str, str], exit_code: int | None, notes: typing.Sequence[str], text: str):
+        self.json: dict[str, typing.Any] = _read(os.path.join(folder, "results.json"))
         """results.json; ``results.schema.json`` describes it."""
         self.folder: str = folder
         """Of the reports. A folder without a name of yours goes with the last object that needs it."""
-        self.exit_code: int = exit_code
+        self.exit_code: int | None = exit_code
+        """Of the program; None for results of an earlier run."""
         self.notes: tuple[str, ...] = tuple(notes)
+        """The sentences that the program said beside the results."""
         self.text: str = text
         """The table that the command line prints."""
         self._keep, self._names = keep, names
         self.units: dict[str, str] = {row["name"]: row["unit"] for row in self.json["metrics"]}
+        """The unit of each metric, by its name."""
         self.cells: list[Cell] = [Cell(row, self._name(row["case"]), self.units, folder, keep) for row in self.json["cells"]]
+        """One for each case, engine and step, in the order of results.json."""
+
+    @classmethod
+    def from_folder(cls, folder: str | os.PathLike[str]) -> Results:
+        """The results that ``rigor run --out FOLDER``, or a call with `out`, has left in a folder."""
+        return cls(os.fspath(folder), None, {}, None, (), "")
 
     def _name(self, case: str) -> str:
         return self._names.get(case, case)
@@ -152,12 +187,12 @@ class Results:
         return f"<rigor.Results of {len(self.cells)} cells: {', '.join(f'{count} {status}' for status, count in counts.items())}>"
 
     def __str__(self) -> str:
-        return self.text
+        return self.text or repr(self)
 
     @property
     def passed(self) -> bool:
         """Whether every gate holds that was checked, and every cell ran that its engine supports."""
-        return self.exit_code == 0 and not any(cell.status in _FAILURES for cell in self.cells)
+        return self.exit_code in (0, None) and not any(cell.status in _FAILURES for cell in self.cells) and not self.failures()
 
     def failures(self) -> list[str]:
         """The gates that fell short, a sentence each, with the worst instant; and cells that did not run to their end."""
@@ -206,44 +241,5 @@ class Results:
         return page if os.path.isfile(page) else os.path.join(target, "report.md")
 
     def _repr_html_(self) -> str:
+        from .notebook import matrix_html
         return matrix_html(self)
-
-
-_COLOURS = {"stable": "#d9f0d9", "drifting": "#fdf3cf", "gaining": "#fbe0c4", "overlapping": "#fbe0c4", "collapsed": "#f7cfc9",
-            "tunnelled": "#f7cfc9", "blown up": "#f0b5ae"}
-_STYLE = "border:1px solid #ccc;padding:3px 8px;text-align:left;color:#111;"
-
-
-def matrix_html(results: Results) -> str:
-    """Cases and engines at the headline's step, with each cell's verdict and main error."""
-    headline = results.json["headline_dt"]
-    engines = list(dict.fromkeys(cell.engine for cell in results.cells))
-    parts = [f"<div><b>Rigor</b>, dt = {html.escape(headline)} s: {html.escape(repr(results)[15:-1])}</div>",
-             '<table style="border-collapse:collapse">',
-             f'<tr><th style="{_STYLE}">case</th>', *(f'<th style="{_STYLE}">{html.escape(engine)}</th>' for engine in engines), "</tr>"]
-    for case in results.json["cases"]:
-        name = results._name(case["id"])
-        own = [cell for cell in results.cells if cell.case == name]
-        steps = list(dict.fromkeys(cell.dt for cell in own))
-        dt = headline if headline in steps or not steps else steps[0]
-        label = name if dt == headline else f"{name} (dt = {dt} s)"
-        parts.append(f'<tr><td style="{_STYLE}">{html.escape(label)}</td>')
-        for engine in engines:
-            cell = next((one for one in own if one.engine == engine and one.dt == dt), None)
-            parts.append(_matrix_cell(cell, case.get("main_error", "")))
-        parts.append("</tr>")
-    return "".join([*parts, "</table>"])
-
-
-def _matrix_cell(cell: Cell | None, metric: str) -> str:
-    if cell is None:
-        return f'<td style="{_STYLE}"></td>'
-    ran = cell.verdict is not None
-    text = cell.verdict if ran else cell.status
-    if ran and cell.status not in ("pass", "diverged"):
-        text = f"{text}, {cell.status}"
-    value = cell.metrics.get(metric)
-    size = f"<br><small>{value:.3g} {html.escape(value.unit)}</small>" if value is not None and not value.why else ""
-    colour = _COLOURS.get(cell.verdict or "", "#e4e4e4" if cell.status == "unsupported" else "#f0b5ae")
-    title = html.escape(f"{metric}: {cell.reason}" if cell.reason else metric, quote=True)
-    return f'<td title="{title}" style="{_STYLE}background:{colour}">{html.escape(text or "")}{size}</td>'

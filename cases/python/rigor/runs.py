@@ -4,11 +4,11 @@ from __future__ import annotations
 import json
 import os
 import re
-import shlex
 import tempfile
 import typing
 
 from . import program
+from .answers import Conformance, Diagnosis, Divergence, Printed, Tuned
 from .case import CaseWord, WrittenCases
 from .engines import Plugins
 from .errors import InputError
@@ -62,6 +62,14 @@ class _Call:
             finally:
                 if bar is not None:
                     bar.close()
+
+    def printed(self, progress: Progress) -> program.Completed:
+        """The same, with the names of cases in what it prints."""
+        done = self.run(progress)
+        out = done.out
+        for path, name in self.written.names.items():
+            out = out.replace(path.encode(), name.encode())
+        return done._replace(out=out)
 
 
 class _Folder:
@@ -130,9 +138,14 @@ class Sweep:
     """The rows of a sweep, one a cell."""
 
     def __init__(self, folder: str, keep: object, text: str):
-        self.folder, self._keep, self.text = folder, keep, text
+        self.folder: str = folder
+        """Of ``sweep.csv`` and ``sweep.jsonl``. A folder without a name of yours goes with this object."""
+        self.text: str = text
+        """What the command line prints."""
+        self._keep = keep
         with open(os.path.join(folder, "sweep.jsonl"), encoding="utf-8") as file:
             self.rows: list[dict[str, typing.Any]] = [json.loads(line) for line in file]
+            """A dict for each cell, with the keys of sweep.jsonl in SI units."""
 
     def __repr__(self) -> str:
         return f"<rigor.Sweep of {len(self.rows)} cells in {self.folder!r}>"
@@ -162,41 +175,11 @@ def sweep(cases: Cases, *, vary: typing.Mapping[str, typing.Any], engines: typin
     return Sweep(folder.path, folder.keep, done.out.decode("utf-8", "replace"))
 
 
-class Printed:
-    """What a command printed: ``text``, and ``json`` if the command has it. True if its exit code is 0."""
-
-    def __init__(self, done: program.Completed, as_json: bool):
-        self.exit_code = done.code
-        self.notes = tuple(done.notes)
-        self.text: str = done.out.decode("utf-8", "replace")
-        self.json: typing.Any = json.loads(self.text) if as_json else None
-
-    def __bool__(self) -> bool:
-        return self.exit_code == 0
-
-    def __repr__(self) -> str:
-        return self.text.rstrip()
-
-
-class Tuned(Printed):
-    """The cheapest setting within the bounds. False if there is none."""
-
-    def __init__(self, done: program.Completed):
-        super().__init__(done, False)
-        self.engine: str | None = None
-        """The winner's run name, with its options."""
-        self.dt: str | None = None
-        for line in self.text.splitlines():
-            if line.strip().startswith("rigor run ") and self.engine is None:
-                words = shlex.split(line)
-                self.engine, self.dt = words[words.index("--engine") + 1], words[words.index("--dt") + 1]
-
-
 def tune(cases: Cases, *, engine: typing.Any, within: typing.Any, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = None,
          **options: typing.Any) -> Tuned:
     """The cheapest step and options of `engine` within bounds: ``within="1mm"`` or ``["1mm", "2% energy"]``."""
     call = _Call("tune", cases, engine, plugins, in_process, {"within": within, **options})
-    return Tuned(program.checked(call.run(progress), (0, 1)))
+    return Tuned(program.checked(call.printed(progress), (0, 1)))
 
 
 def command(name: str, cases: Cases = None, *, engines: typing.Any = None, plugins: typing.Any = (), in_process: bool | None = None,
@@ -207,7 +190,7 @@ def command(name: str, cases: Cases = None, *, engines: typing.Any = None, plugi
     """
     has_json = "--json" in program.checked(program.call(["help", name])).out.decode("utf-8", "replace")
     call = _Call(name, cases, engines, plugins, in_process, {**options, "json": has_json})
-    return Printed(program.checked(call.run(progress), (0, 1)), has_json)
+    return Printed(program.checked(call.printed(progress), (0, 1)), has_json)
 
 
 def fit(cases: Cases, *, engine: typing.Any, vary: typing.Mapping[str, typing.Any], **options: typing.Any) -> Printed:
@@ -216,9 +199,14 @@ def fit(cases: Cases, *, engine: typing.Any, vary: typing.Mapping[str, typing.An
     return command("fit", cases, engines=engine, vary=words, **options)
 
 
-def diverge(case: Cases, *, engines: typing.Sequence[typing.Any], **options: typing.Any) -> Printed:
-    """When, where and why the runs of two engines part."""
-    return command("diverge", case, engines=engines, **options)
+def diverge(case: Cases, *, engines: typing.Any = None, dt: typing.Any = None, duration: typing.Any = None, plugins: typing.Any = (),
+            in_process: bool | None = None, progress: Progress = None, **options: typing.Any) -> Divergence:
+    """When, where and why two runs part: two engines or settings with one `dt` [s], or one engine with two.
+
+    Other options are those of ``rigor diverge``: ``within="1mm"`` says what counts as parted.
+    """
+    call = _Call("diverge", case, engines, plugins, in_process, {"dt": dt, "duration": duration, **options, "json": True})
+    return Divergence(program.checked(call.printed(progress)))
 
 
 def repeat(cases: Cases, *, engine: typing.Any, **options: typing.Any) -> Printed:
@@ -226,43 +214,19 @@ def repeat(cases: Cases, *, engine: typing.Any, **options: typing.Any) -> Printe
     return command("repeat", cases, engines=engine, **options)
 
 
-class Conformance(Printed):
-    """The checks of an engine against the interface. True if none is broken."""
-
-    def __init__(self, done: program.Completed):
-        super().__init__(done, True)
-        self.checks: list[dict[str, typing.Any]] = self.json["checks"]
-        """Rows with ``name``, ``asks``, ``answer`` (holds, broken, not-asked); of a broken one ``sent``, ``came`` and ``due``."""
-        self.diagnosis: dict[str, typing.Any] | None = self.json.get("diagnosis")
-
-    def broken(self) -> list[dict[str, typing.Any]]:
-        return [check for check in self.checks if check["answer"] == "broken"]
-
-    def __repr__(self) -> str:
-        lines = [f"{self.json['engine']}: {'conforms' if self else 'does not conform'}, {len(self.checks)} checks"]
-        for check in self.checks:
-            lines.append(f"  {check['answer']:<9} {check['name']:<16} {check['asks']}")
-            if check["answer"] == "broken":
-                lines += [f"{'':12}{key}: {check[key][:600]}" for key in ("came", "due")]
-        return "\n".join(lines)
-
-
 def conform(engine: typing.Any, *, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = False,
             **options: typing.Any) -> Conformance:
     """Checks an engine against the interface: ``assert rigor.conform(MyEngine)``. The answer's text names each broken check."""
     call = _Call("conform", None, engine, plugins, in_process, {"json": True, **options})
-    return Conformance(program.checked(call.run(progress), (0, 1)))
-
-
-class Diagnosis(Printed):
-    """Which known mistake explains an engine's error, as ``rigor diagnose --json`` says."""
-
-    def __repr__(self) -> str:
-        return json.dumps(self.json, indent=2)
+    return Conformance(program.checked(call.printed(progress), (0, 1)))
 
 
 def diagnose(cases: Cases = None, *, engine: typing.Any, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = None,
              **options: typing.Any) -> Diagnosis:
-    """Names the known mistake that explains the error of `engine`. Without cases those that tell mistakes apart."""
+    """Names the known mistake that explains the error of `engine`. Without cases those that tell mistakes apart.
+
+    ``rigor.diagnose("ballistic/free-fall", engine=MyEngine).mistakes`` is ``("gravity off by 5 %",)``, say. One case takes
+    seconds, all of them minutes.
+    """
     call = _Call("diagnose", cases, engine, plugins, in_process, {"json": True, **options})
-    return Diagnosis(program.checked(call.run(progress)), True)
+    return Diagnosis(program.checked(call.printed(progress)))

@@ -21,6 +21,7 @@ class Body:
     """A rigid body at t = 0. Arrays are float64 and cannot be written."""
 
     name: str
+    """As in the case file; no two bodies have the same."""
     mass: float
     """kg; of no meaning for a fixed body."""
     inertia: np.ndarray
@@ -34,7 +35,9 @@ class Body:
     angular_velocity: np.ndarray
     """(3,), rad/s, in W."""
     fixed: bool
+    """Whether the body stays where it is."""
     collides: bool
+    """Whether the body touches others."""
     shapes: tuple[Row, ...]
     """Rows as in the case file: ``{"type": "box", "size": [...]}``, with ``position`` and ``orientation_wxyz`` in B."""
 
@@ -59,11 +62,17 @@ class Scene:
         self.gravity: np.ndarray = _frozen(rows["gravity"])
         """(3,), m/s², in W."""
         self.springs: tuple[Row, ...] = tuple(rows.get("spring", ()))
+        """Rows with the keys of ``[[scene.spring]]``, SI units: springs and dampers between points of two bodies."""
         self.joints: tuple[Row, ...] = tuple(rows.get("joint", ()))
+        """Rows of ``[[scene.joint]]``: ``type``, ``a``, ``b``, and what the type has, in SI units."""
         self.couplings: tuple[Row, ...] = tuple(rows.get("coupling", ()))
+        """Rows of ``[[scene.coupling]]``: gears, racks and mimic joints."""
         self.motors: tuple[Row, ...] = tuple(rows.get("motor", ()))
+        """Rows of ``[[scene.motor]]``: drives of hinges [N m] and sliders [N], by an effort or towards a speed."""
         self.contacts: tuple[Row, ...] = tuple(rows.get("contact", ()))
+        """Rows of ``[[scene.contact]]``: restitution, friction and stiffness of a pair of bodies."""
         self.forces: tuple[Row, ...] = tuple(rows.get("force", ()))
+        """Rows of ``[[scene.force]]``: forces [N] and torques [N m] on a body, over time."""
         self.contact_default: Row = rows["contact_default"]
         """``restitution`` and ``friction`` of each pair without a row in `contacts`; friction may be ``"infinite"``."""
 

@@ -1,18 +1,30 @@
 """An engine of numpy for the tests: free bodies by semi-implicit Euler, all at once. Derived classes break it."""
+import os
+import sys
+import textwrap
+
 import numpy as np
 
 import rigor
 
 
+NEXT, LAST = [1, 2, 0], [2, 0, 1]
+
+
 def cross(a, b):
-    return np.cross(a, b)
+    """The same as numpy's, in a fifth of its time on few rows."""
+    return a[:, NEXT] * b[:, LAST] - a[:, LAST] * b[:, NEXT]
 
 
 def matrices(q):
     """(n, 3, 3) of unit quaternions w, x, y, z."""
-    w, x, y, z = q.T
-    return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z),
-                     2 * (y * z - w * x), 2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], axis=1).reshape(-1, 3, 3)
+    p = 2 * q.T[:, None] * q.T
+    (_, wx, wy, wz), (_, xx, xy, xz), (_, _, yy, yz), (_, _, _, zz) = p
+    out = np.empty((3, 3, len(q)))
+    out[0] = 1 - yy - zz, xy - wz, xz + wy
+    out[1] = xy + wz, 1 - xx - zz, yz - wx
+    out[2] = xz - wy, yz + wx, 1 - xx - yy
+    return out.transpose(2, 0, 1)
 
 
 def turned(q, v):
@@ -20,7 +32,7 @@ def turned(q, v):
     angle = np.linalg.norm(v, axis=1)
     s = 0.5 * np.sinc(angle / (2 * np.pi))
     w, r = np.cos(angle / 2), s[:, None] * v
-    out = np.concatenate([(w * q[:, 0] - (r * q[:, 1:]).sum(1))[:, None], w[:, None] * q[:, 1:] + q[:, :1] * r + np.cross(r, q[:, 1:])], axis=1)
+    out = np.concatenate([(w * q[:, 0] - (r * q[:, 1:]).sum(1))[:, None], w[:, None] * q[:, 1:] + q[:, :1] * r + cross(r, q[:, 1:])], axis=1)
     return out / np.linalg.norm(out, axis=1)[:, None]
 
 
@@ -32,9 +44,9 @@ class FreeWorld:
         self.inertia = np.where(scene.fixed[:, None, None], np.eye(3), scene.inertia)
         self.inverse = np.linalg.inv(self.inertia)
 
-    def in_world(self, tensor, q, v):
-        r = matrices(q)
-        return np.einsum("nij,njk,nlk,nl->ni", r, tensor, r, v)
+    @staticmethod
+    def in_world(tensor, r, v):
+        return (r @ (tensor @ (r.transpose(0, 2, 1) @ v[:, :, None])))[:, :, 0]
 
     def step(self, dt, wrenches=None):
         x, q, v, w = (self.rows[:, a:b] for a, b in ((0, 3), (3, 7), (7, 10), (10, 13)))
@@ -42,11 +54,12 @@ class FreeWorld:
         m = self.moves[:, None]
         v += np.where(m, dt * (self.gravity + forces[:, :3] / self.mass[:, None]), 0)
         x += np.where(m, dt * v, 0)
-        momentum = self.in_world(self.inertia, q, w) + dt * forces[:, 3:]
-        middle = turned(q, dt / 2 * self.in_world(self.inverse, q, momentum))
-        after = turned(q, dt * self.in_world(self.inverse, middle, momentum))
+        r = matrices(q)
+        momentum = self.in_world(self.inertia, r, w) + dt * forces[:, 3:]
+        middle = turned(q, dt / 2 * self.in_world(self.inverse, r, momentum))
+        after = turned(q, dt * self.in_world(self.inverse, matrices(middle), momentum))
         q[:] = np.where(m, after, q)
-        w[:] = np.where(m, self.in_world(self.inverse, q, momentum), w)
+        w[:] = np.where(m, self.in_world(self.inverse, matrices(q), momentum), w)
 
     def read(self):
         return self.rows
@@ -59,3 +72,33 @@ class FreeBodies(rigor.Engine):
 
     def load(self, scene, settings):
         return FreeWorld(scene)
+
+
+class Broken(FreeBodies):
+    name = "broken"
+    world_class = FreeWorld
+
+    def load(self, scene, settings):
+        return self.world_class(scene)
+
+
+def broken(method, body):
+    """A class whose world has another `step` or `read`; a step is the tenth, so that it fails on the way."""
+    namespace = {"np": np, "os": os, "sys": sys, "FreeWorld": FreeWorld, "rigor": rigor}
+    source = f"""
+class Faulty(FreeWorld):
+    def __init__(self, scene):
+        super().__init__(scene)
+        self.count = 0
+    def step(self, dt, wrenches=None):
+        self.count += 1
+        if '{method}' == 'step' and self.count == 10:
+{textwrap.indent(textwrap.dedent(body), ' ' * 12)}
+        super().step(dt, wrenches)
+    def read(self):
+        if '{method}' == 'read' and self.count == 10:
+{textwrap.indent(textwrap.dedent(body), ' ' * 12)}
+        return self.rows
+"""
+    exec(source, namespace)
+    return type("Broken", (Broken,), {"world_class": namespace["Faulty"], "__module__": "__main__"})

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <thread>
 
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -73,6 +74,28 @@ BOOST_AUTO_TEST_CASE(each_way_to_end_is_told_apart) {
     const std::string sentence = sentence_of(outcome.end, 20);
     BOOST_TEST(sentence.find(row.text) != std::string::npos, sentence);
   }
+}
+
+// As an engine that closes all files of its process. The exception must not go on into the parent's code.
+BOOST_AUTO_TEST_CASE(a_job_that_loses_its_channel_ends_there) {
+  void* page = mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  BOOST_REQUIRE(page != MAP_FAILED);
+  int& went_on = *static_cast<int*>(page);
+  const pid_t parent = getpid();
+  Outcome outcome;
+  try {
+    outcome = outcome_of([](const Channel&) {
+      for (int file = 3; file < 1024; ++file) close(file);
+    });
+  } catch (const std::exception&) {
+    if (getpid() != parent) went_on = 1, _exit(1);
+    throw;
+  }
+  BOOST_TEST(went_on == 0);
+  BOOST_TEST((outcome.end.how == Ending::exited));
+  const std::string sentence = sentence_of(outcome.end, 20);
+  BOOST_TEST(sentence.find("sending a result to the parent process") != std::string::npos, sentence);
+  munmap(page, sizeof(int));
 }
 
 BOOST_AUTO_TEST_CASE(an_endless_loop_costs_its_limit_and_no_more) {
