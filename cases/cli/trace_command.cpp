@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"
@@ -43,12 +44,22 @@ int print_from_child(const std::string& what, double limit, const std::function<
   return code;
 }
 
-void send_trajectory(const Simulation& run, const Scene& scene, int every, TraceWriter& writer,
+// The rows of a trace are held in memory until the run has ended.
+void refuse_too_many_rows(const Scene& scene, double steps, int every) {
+  constexpr double kMostBytes = 4e9, kBytesOfBody = 14 * sizeof(double);
+  const double bytes = steps / every * kBytesOfBody * static_cast<double>(scene.bodies.size());
+  if (bytes <= kMostBytes) return;
+  throw InputError(fmt::format("rigor trace: {:.3g} steps would take {:.3g} GB of memory; allowed: --every {:.0f}",
+                               steps, bytes / 1e9, std::ceil(every * bytes / kMostBytes)));
+}
+
+// `samples` of the run: a last one between two multiples of --every is left out.
+void send_trajectory(const Simulation& run, const Scene& scene, std::size_t samples, TraceWriter& writer,
                      const Channel& channel) {
   const std::string start(1, kData);
-  const std::size_t all = run.trajectory.samples.size();
-  std::string data = start + writer.begin((all + every - 1) / every);
-  for (std::size_t i = 0; i < all; i += every) {
+  const std::size_t all = std::min(samples, run.trajectory.samples.size());
+  std::string data = start + writer.begin(all);
+  for (std::size_t i = 0; i < all; ++i) {
     data += writer.add(run.trajectory.samples[i]);
     if (data.size() > kChunk) channel.send(data), data = start;
   }
@@ -132,14 +143,16 @@ class TraceCommand : public Command {
     const double dt = steps.front().seconds;
     const std::string why = why_unsupported(engines.info_of(run.engine), run.settings, definition.scene, dt);
     if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.text, why));
+    const long count = steps_in(definition.duration, dt);
+    refuse_too_many_rows(definition.scene, static_cast<double>(count), every_);
     return print_from_child(run.text, timeout_.seconds, [&](const Channel& channel) {
       try {
-        const Simulation done =
-            simulate(engine, run.settings, definition.scene, dt, definition.duration, {.has_contacts = contacts_});
+        const Simulation done = simulate(engine, run.settings, definition.scene, dt, definition.duration,
+                                         {.steps_per_sample = every_, .has_contacts = contacts_});
         if (contacts_ && !done.trajectory.has_contacts)
           throw InputError(fmt::format("{}: unsupported: the engine does not report contact forces here", run.text));
         const auto writer = format.writer(definition.scene, contacts_);
-        send_trajectory(done, definition.scene, every_, *writer, channel);
+        send_trajectory(done, definition.scene, static_cast<std::size_t>(count / every_) + 1, *writer, channel);
       } catch (const EngineFailure& failure) {
         if (failure.kind() != FailureKind::unsupported) throw;
         throw InputError(fmt::format("{}: unsupported: {}", run.text, failure.what()));

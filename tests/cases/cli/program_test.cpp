@@ -331,6 +331,19 @@ BOOST_AUTO_TEST_CASE(trace_prints_the_run_from_its_start) {
              7u);
 }
 
+// More steps than a judged run keeps: none may be left out, nor may --every count others.
+BOOST_AUTO_TEST_CASE(a_long_trace_has_each_nth_step_or_is_refused) {
+  const auto traced = [&](const std::string& dt, const std::string& every) {
+    return run({"trace", "stone", "--engine", "core:rk4", "--dt", dt, "--every", every});
+  };
+  const auto lines = lines_of(traced("1e-7", "1000000").out);
+  BOOST_TEST_REQUIRE(lines.size() == 12u);
+  BOOST_TEST(lines[2].starts_with("0.1") || lines[2].starts_with("0.09999999"), lines[2]);
+  const Answer refused = traced("1e-8", "1");
+  BOOST_TEST(refused.code == 2);
+  BOOST_TEST(refused.err.find("allowed: --every 3") != std::string::npos, refused.err);
+}
+
 BOOST_AUTO_TEST_CASE(truth_prints_states_at_any_time_with_their_error) {
   const Answer answer = run({"truth", "stone", "--times", "0,1/2,3"});
   const auto lines = lines_of(answer.out);
