@@ -133,9 +133,7 @@ void MujocoWorld::restore(const SavedState& saved) {
   std::copy(state.positions.begin(), state.positions.end(), data_->qpos);
   std::copy(state.velocities.begin(), state.velocities.end(), data_->qvel);
   std::copy(state.warm_start.begin(), state.warm_start.end(), data_->qacc_warmstart);
-  mj_kinematics(made_.model.get(), data_.get());  // the poses of the bodies, which are read
-  mj_comPos(made_.model.get(), data_.get());
-  is_step_in_data_ = false;
+  is_step_in_data_ = false;  // the poses of jointed bodies are worked out when they are read
 }
 
 void MujocoWorld::step(double dt) {

@@ -1,6 +1,7 @@
 // A case: a scene, how to run it, its truth, and the gates it must pass. Each is one TOML file of cases/suite/.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -59,6 +60,8 @@ struct Gate {
 // "bound" or "regression", as reports call them.
 std::string kind_of(const Gate& gate);
 
+struct MotionRecording;
+
 struct Case {
   std::string id;  // "springs/fixed-spring": its path in the suite; or the path as given, for a file elsewhere
   std::string title;
@@ -69,6 +72,9 @@ struct Case {
   int ensemble = 0;            // starts 1e-6 apart that each run is repeated from (runner/ensemble.h); 0: none
   std::string truth = "none";  // a row of truths.cpp, or "none"
   std::string truth_where;     // "file:line:column" of truth.kind
+  // Of the truth 'recording': what the case's file names, and that file's own path. Null if it is not on this machine.
+  std::shared_ptr<const MotionRecording> recording;
+  std::string path;
   std::vector<Gate> gates;
   std::string text;          // the file itself; of a robot, the case file that the import makes
   std::vector<Loss> losses;  // of the import of a robot's file

@@ -129,9 +129,9 @@ std::string text_of(const RunName& run, const FitResult& fit) {
 
 // The place of the recording stays known where the new file stands elsewhere.
 std::string with_absolute_recording(std::string text, const Case& definition) {
-  const auto recording = recording_of(definition);
+  const auto recording = definition.recording;
   if (!recording) return text;
-  const TomlFile file = TomlFile::parse(text, file_of(definition));
+  const TomlFile file = TomlFile::parse(text, definition.path);
   const TextRange range = file.root(case_keys()).at("truth").table(truth_keys()).at("file").range();
   const std::string path = std::filesystem::absolute(recording->path).string();
   return text.replace(range.begin, range.end - range.begin, fmt::format("'{}'", path));

@@ -91,7 +91,7 @@ class GateCheck {
   }
   // A gate that names no runs passes over those that come from the same code as the truth.
   bool is_made_like_truth(std::size_t run) const {
-    return is_held_to_itself(result_.definition, gate_.metric, grid_.runs[run]);
+    return is_case_held_to_itself(result_.definition, gate_.metric, grid_.runs[run]);
   }
   const std::string& name_of(const Cell& cell) const { return grid_.runs[cell.run].text; }
 

@@ -18,8 +18,8 @@ bool is_held_to_itself(const std::string& truth, const std::string& metric, cons
   return is_against_truth(metric) && is_made_by(truth, run, scene);
 }
 
-bool is_held_to_itself(const Case& definition, const std::string& metric, const RunName& run) {
-  const auto recording = recording_of(definition);
+bool is_case_held_to_itself(const Case& definition, const std::string& metric, const RunName& run) {
+  const auto recording = definition.recording;
   if (recording && recording->synthetic == run.engine && is_against_truth(metric)) return true;
   return is_held_to_itself(definition.truth, metric, run, definition.scene);
 }

@@ -15,6 +15,6 @@ bool is_against_truth(const std::string& metric);
 // Whether a run is compared with itself, when this metric judges it against this truth or a reference's ensemble.
 bool is_held_to_itself(const std::string& truth, const std::string& metric, const RunName& run, const Scene& scene);
 // The same of a case, whose truth may be a synthetic recording that the run's engine made.
-bool is_held_to_itself(const Case& definition, const std::string& metric, const RunName& run);
+bool is_case_held_to_itself(const Case& definition, const std::string& metric, const RunName& run);
 
 }  // namespace rigor

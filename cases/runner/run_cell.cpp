@@ -78,7 +78,7 @@ std::map<std::string, MetricValue> measured(const JudgedRun& run, const RunName&
         is_asked_for({row.name}, definition, options) || (!row.is_costly && options.only_metrics.empty());
     MetricResult found = is_wanted ? row.measure(run) : MetricResult{{}, "not measured: no gate asks for it"};
     MetricValue& value = values[row.name] = condensed(found, run.trajectory);
-    value.is_held_to_itself = is_held_to_itself(definition, row.name, name);
+    value.is_held_to_itself = is_case_held_to_itself(definition, row.name, name);
     if (found.measurement) series.push_back({row.name, std::move(found.measurement->series)});
   }
   return values;
@@ -161,7 +161,7 @@ JudgedCell run_once(const Cell& planned, const Case& definition, const EngineTab
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, const TruthFacts& facts, const GridOptions& options,
                     const TruthOnSteps& truth_on_steps, const EnsembleReference* reference) {
-  const auto recording = recording_of(definition);
+  const auto recording = definition.recording;
   if (!recording || recording->trials.size() < 2)
     return run_once(planned, definition, engines, run_name, truth, facts, options, truth_on_steps, reference);
   JudgedCell judged = run_trials(

@@ -51,7 +51,7 @@ FitProbe::FitProbe(const FitInput& input, const EngineTable& engines, const Voca
       throw InputError(
           fmt::format("{}: the case states no truth to fit to; allowed: any truth but \"none\"", definition.id));
     std::vector<std::shared_ptr<const Truth>>& truths = truths_.emplace_back();
-    const auto recording = rigor::recording_of(definition);
+    const auto recording = definition.recording;
     recordings_.push_back(recording);
     if (!recording) truths.push_back(truth_of(definition, definition.duration));
     for (std::size_t k = 0; recording && k < recording->trials.size(); ++k)

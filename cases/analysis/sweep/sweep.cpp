@@ -186,7 +186,7 @@ Case Sweep::definition_at(std::size_t of_case, const Point& point) const {
       if (axis.kind == Kind::length) overrides.duration = parse_step_size(point[i], "duration").seconds;
       if (axis.kind == Kind::step) overrides.dt = {parse_step_size(point[i], "dt")};
     }
-    Case definition = read_case_text(text, base.truth == "recording" ? file_of(base) : base.id, base.id, vocabulary_);
+    Case definition = read_case_text(text, base.path.empty() ? base.id : base.path, base.id, vocabulary_);
     definition.gates.clear();  // they are the scene's as it was written
     override_run(definition, overrides);
     return definition;
@@ -247,7 +247,7 @@ std::string Sweep::plan() const {
   for (const Case& definition : input_.cases) {
     plan += fmt::format("{}\n{}\n{:.17g}\n", definition.id, definition.text, definition.duration);
     for (const StepSize& dt : definition.dt) plan += dt.text + "\n";
-    if (const auto recording = recording_of(definition)) plan += fmt::format("{:016x}\n", recording->content);
+    if (const auto recording = definition.recording) plan += fmt::format("{:016x}\n", recording->content);
   }
   for (const RunName& run : input_.runs) plan += run.text + "\n";
   for (const SweepAxis& axis : input_.axes)

@@ -117,36 +117,15 @@ std::shared_ptr<const MotionRecording> read(const TableReader& truth, const Case
 }  // namespace
 
 void read_recording(const TableReader& truth, Case& out) {
-  const auto recording = read(truth, out);
-  if (!recording) return;
-  check_covers(*recording, out.duration, truth.at("file").label());
-  start_from(*recording, 0, out.scene);
-}
-
-std::string file_of(const Case& definition) {
-  const std::string& where = definition.truth_where;  // file:line:column
-  const std::size_t column = where.rfind(':');
-  const std::size_t line = column == std::string::npos || column == 0 ? column : where.rfind(':', column - 1);
-  return line == std::string::npos || line == 0 ? definition.id : where.substr(0, line);
-}
-
-std::shared_ptr<const MotionRecording> recording_of(const Case& definition) {
-  if (definition.truth != "recording") return nullptr;
-  // Judging asks for the same one for each metric of each trial.
-  static std::string last;
-  static std::shared_ptr<const MotionRecording> kept;
-  const char* folder = std::getenv("RIGOR_DATA");
-  const std::string key =
-      fmt::format("{}\n{}\n{}", folder == nullptr ? "" : folder, file_of(definition), definition.text);
-  if (kept && key == last) return kept;
-  const TomlFile file = TomlFile::parse(definition.text, file_of(definition));
-  kept = read(file.root(case_keys()).at("truth").table(truth_keys()), definition);
-  last = key;
-  return kept;
+  out.path = truth.at("file").path();
+  out.recording = read(truth, out);
+  if (!out.recording) return;
+  check_covers(*out.recording, out.duration, truth.at("file").label());
+  start_from(*out.recording, 0, out.scene);
 }
 
 std::string missing_recording(const Case& definition) {
-  if (definition.truth != "recording" || recording_of(definition)) return "";
+  if (definition.truth != "recording" || definition.recording) return "";
   return fmt::format(
       "its recording is neither beside the case file nor in the folder that RIGOR_DATA names; it is published here: {}",
       definition.source.empty() ? "the case file does not say where" : definition.source);

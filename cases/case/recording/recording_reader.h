@@ -17,15 +17,8 @@ const Keys& truth_keys();
 // on this machine changes nothing. Throws InputError.
 void read_recording(const TableReader& truth, Case& out);
 
-// The recording of a case, read from the file that its text names. Null for another truth, and where the file is
-// missing. What was read is kept, so that asking again costs little. Throws InputError.
-std::shared_ptr<const MotionRecording> recording_of(const Case& definition);
-
 // A sentence on a recording that is not on this machine, so that nothing of the case can run; else empty.
 std::string missing_recording(const Case& definition);
-
-// The case file, beside which the files that it names stand; the id for a case from no file.
-std::string file_of(const Case& definition);
 
 // Throws InputError, begun by `what`, if the recording is shorter than the run. Where there are trials, the longest
 // counts, and a shorter one ends with its last sample.

@@ -38,7 +38,7 @@ std::string plan_of(const Results& grid, const CaseResult& planned, const Engine
   const Case& definition = planned.definition;
   std::string plan = fmt::format("{}\n{}\n{}\n{:.17g} {} {} {}\n", build_identity(), definition.id, definition.text,
                                  definition.duration, options.stable_steps, options.is_thorough, grid.cases.size());
-  if (const auto recording = recording_of(definition)) plan += fmt::format("{:016x}\n", recording->content);
+  if (const auto recording = definition.recording) plan += fmt::format("{:016x}\n", recording->content);
   for (const auto& recorder : options.recorders) plan += recorder->name() + "\n";
   for (const RunName& run : grid.runs) plan += fmt::format("{} {}\n", run.text, engines.identity_of(run.engine));
   for (const Gate& gate : definition.gates) plan += gate.metric + "\n";  // some metrics are measured for a gate alone

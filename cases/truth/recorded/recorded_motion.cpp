@@ -151,7 +151,7 @@ const RecordedMotion* as_recording(const Truth* truth) { return dynamic_cast<con
 
 std::unique_ptr<Truth> truth_of(const Case& definition, double duration) {
   if (definition.truth != "recording") return make_truth(definition.truth, definition.scene, duration);
-  const auto recording = recording_of(definition);
+  const auto recording = definition.recording;
   if (!recording) throw InputError(missing_recording(definition));
   check_covers(*recording, duration, definition.id);
   return std::make_unique<RecordedMotion>(recording, 0, definition.scene);

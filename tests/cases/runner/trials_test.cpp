@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(the_folder_of_data_has_what_does_not_stand_beside_the_case)
   const std::string path = folder.write("slide.toml", test::recorded_case(0.3, "slide.csv"));
   ::setenv("RIGOR_DATA", data.path.c_str(), 1);
   const Case definition = read_case(path, "slide", test::words());
-  const auto recording = recording_of(definition);
+  const auto recording = definition.recording;
   ::unsetenv("RIGOR_DATA");
   BOOST_TEST_REQUIRE(recording != nullptr);
   BOOST_TEST(recording->trials.size() == 2u);

@@ -16,22 +16,23 @@ namespace rigor {
 namespace {
 
 constexpr std::size_t kTerms = 24;
-using Series = std::array<Extended, kTerms + 1>;  // of the overlap [m], in powers of the time since the piece began
+using PowerSeries =
+    std::array<Extended, kTerms + 1>;  // of the overlap [m], in powers of the time since the piece began
 
-Extended value_of(const Series& x, Extended t) {
+Extended value_of(const PowerSeries& x, Extended t) {
   Extended sum = 0;
   for (std::size_t n = kTerms + 1; n-- > 0;) sum = sum * t + x[n];
   return sum;
 }
-Extended rate_of(const Series& x, Extended t) {
+Extended rate_of(const PowerSeries& x, Extended t) {
   Extended sum = 0;
   for (std::size_t n = kTerms; n > 0; --n) sum = sum * t + static_cast<Extended>(n) * x[n];
   return sum;
 }
 
-struct Piece {
+struct SeriesPiece {
   Extended from;  // s
-  Series x;
+  PowerSeries x;
 };
 
 class HuntCrossleyBounce final : public BodyMotion {
@@ -55,8 +56,8 @@ class HuntCrossleyBounce final : public BodyMotion {
 
   ExtendedState at(Extended t) const override {
     const auto later = std::upper_bound(pieces_.begin(), pieces_.end(), t,
-                                        [](Extended time, const Piece& piece) { return time < piece.from; });
-    const Piece& piece = later == pieces_.begin() ? *later : *(later - 1);
+                                        [](Extended time, const SeriesPiece& piece) { return time < piece.from; });
+    const SeriesPiece& piece = later == pieces_.begin() ? *later : *(later - 1);
     const Extended in = t - piece.from;
     return {extended(body_.position) - (value_of(piece.x, in) - depth_) * up_, extended(body_.orientation),
             -rate_of(piece.x, in) * up_, ExtendedVec3::Zero()};
@@ -76,7 +77,7 @@ class HuntCrossleyBounce final : public BodyMotion {
 
   // Returns when the ball comes to the plane.
   Extended add_flight(Extended from, Extended x, Extended v) {
-    Series series{};
+    PowerSeries series{};
     series[0] = x, series[1] = v, series[2] = gravity_ / 2;
     pieces_.push_back({from, series});
     return from + (-v + std::sqrt(v * v - 2 * gravity_ * x)) / gravity_;
@@ -85,7 +86,7 @@ class HuntCrossleyBounce final : public BodyMotion {
   // Returns when the overlap is gone, or `end` if it is not by then.
   Extended add_contact(Extended from, Extended x, Extended v, Extended end) {
     while (from < end && pieces_.size() <= kMostPieces) {
-      const Series& series = pieces_.emplace_back(Piece{from, series_at(x, v)}).x;
+      const PowerSeries& series = pieces_.emplace_back(SeriesPiece{from, series_at(x, v)}).x;
       const Extended length = std::min(length_of(series), end - from);
       if (value_of(series, length) < 0) return from + zero_of(series, length);
       x = value_of(series, length), v = rate_of(series, length), from += length;
@@ -93,8 +94,8 @@ class HuntCrossleyBounce final : public BodyMotion {
     return end;
   }
 
-  Series series_at(Extended x, Extended v) const {
-    Series series{};
+  PowerSeries series_at(Extended x, Extended v) const {
+    PowerSeries series{};
     std::array<Extended, kTerms + 1> u{};
     series[0] = x, u[0] = v;
     for (std::size_t n = 0; n < kTerms; ++n) {
@@ -108,7 +109,7 @@ class HuntCrossleyBounce final : public BodyMotion {
   }
 
   // s, after which the terms left out are below the rounding of the overlap's scale: half of where the last terms are.
-  Extended length_of(const Series& series) const {
+  Extended length_of(const PowerSeries& series) const {
     const Extended scale = std::abs(series[0]) + std::abs(series[1]) / std::sqrt(spring_);
     Extended length = 1 / std::sqrt(spring_);
     for (const std::size_t n : {kTerms - 1, kTerms}) {
@@ -120,7 +121,7 @@ class HuntCrossleyBounce final : public BodyMotion {
   }
 
   // The overlap is above zero just after the start, and below it after `length`.
-  static Extended zero_of(const Series& series, Extended length) {
+  static Extended zero_of(const PowerSeries& series, Extended length) {
     constexpr int kHalvings = 80;
     Extended low = 0, high = length;
     for (int i = 0; i < kHalvings; ++i) {
@@ -134,7 +135,7 @@ class HuntCrossleyBounce final : public BodyMotion {
   ExtendedVec3 up_;
   Extended gravity_, spring_, dissipation_;  // m/s², 1/s²: k/m, s/m
   Extended depth_;                           // m, at the start; negative above the plane
-  std::vector<Piece> pieces_;
+  std::vector<SeriesPiece> pieces_;
 };
 
 }  // namespace
