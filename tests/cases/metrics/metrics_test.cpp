@@ -80,6 +80,8 @@ bool is_of_contact_or_joints(const std::string& metric) {
                                           "joint_gap_rate",
                                           "joint_twist",
                                           "joint_twist_rate",
+                                          "mean_position_error",  // of recordings
+                                          "mean_rotation_error",
                                           "reaction_error",
                                           "reaction_torque_error",
                                           "reported_reaction_error",
