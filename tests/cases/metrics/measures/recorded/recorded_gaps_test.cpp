@@ -31,7 +31,8 @@ Trajectory off_by(double c, double end) {
   for (int n = 0; 0.1 * n <= end + 1e-9; ++n) {
     const double t = 0.1 * n;
     Sample sample{t, KeptBodies(1)};
-    sample.bodies.columns().set_body(0, {{3 * c * t, 0, 4 * c * t}, rotation_by(Vec3(0, 0, c * t)), {}, {}});
+    sample.bodies.columns().set_body(
+        0, {{3 * c * t, 0, 4 * c * t}, rotation_by(Vec3(0, 0, c * t)), Vec3::Zero(), Vec3::Zero()});
     run.samples.push_back(sample);
   }
   return run;
