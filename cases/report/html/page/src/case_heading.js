@@ -8,6 +8,7 @@ import { address, set } from "./state.js";
 
 function truthText({ truth, duration }) {
   if (truth.kind === "none") return "No truth: only stability and what is conserved are judged.";
+  if (truth.kind === "recording" && truth.horizon !== undefined) return "Truth: a recording.";
   if (truth.horizon === undefined) return `Truth: ${truth.kind}, not found.`;
   if (truth.horizon >= duration)
     return `Truth: ${truth.kind}; its own error is at most ${digits(truth.error_at_end, 2)} m or rad over the whole ${digits(duration)} s.`;

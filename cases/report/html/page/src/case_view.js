@@ -1,5 +1,5 @@
 // One case: the truth, the runs in motion, their series over time, and the summary over all step sizes.
-import { asideOf, cellOf, dtOf, judgement, hasNumbers } from "./data.js";
+import { asideOf, cellOf, dtOf, judgement, hasNumbers, isAgainstTolerance, isHeldToItself } from "./data.js";
 import { el, replace } from "./dom.js";
 import { quantity } from "./format.js";
 import { caseHeading } from "./case_heading.js";
@@ -75,9 +75,9 @@ export class CaseView {
     const best = cheapest(curves, tolerance, isExternal),
       own = cheapest(curves, tolerance, isCoreMethod);
     const within = lengthOrAngle(tolerance);
-    const isComparable = curves.length > 0 && !this.one.main.startsWith("energy");
+    const isComparable = curves.length > 0 && isAgainstTolerance(this.one);
     const title = !isComparable
-      ? "No error can be compared in this case"
+      ? this.nearestToRecording()
       : best
         ? ["For ", el("b", {}, within), " take ", el("b", {}, best.curve.engine), " at ", el("b", {}, `${best.point.dt} s`)]
         : curves.some(isExternal)
@@ -102,6 +102,18 @@ export class CaseView {
     );
     this.chart.root.hidden = !isComparable;
     if (isComparable) this.chart.draw({ curves, tolerance, chosen: best ?? own, focus: null });
+  }
+
+  // Of all runs the one with the smallest mean error.
+  nearestToRecording() {
+    const { main } = this.one,
+      compared = this.one.cells.filter(
+        (cell) => main.startsWith("mean_") && Number.isFinite(cell.metrics?.[main]?.value) && !isHeldToItself(cell, main),
+      );
+    const best = compared.sort((a, b) => a.metrics[main].value - b.metrics[main].value)[0];
+    if (!best) return "No error can be compared in this case";
+    const error = quantity(best.metrics[main].value, this.results.units[main]);
+    return ["Nearest to the recording: ", el("b", {}, best.engine), ` at ${best.dt} s, ${error}`];
   }
 
   // It stays in sight; the picture below it has to know how high it is.

@@ -205,11 +205,15 @@ const verdictKinds = {
   tunnelled: { kind: "bad", sign: "»" },
 };
 
+// Whether a case's main error is a length or an angle, which a tolerance can be compared with. Not an energy, nor the mean
+// error of a recording, which is in percent.
+export const isAgainstTolerance = (one) => ["position_error", "orientation_error"].includes(one.main);
+
 // A cell's error in decades of the tolerance, from 0 (a hundredth of it or less) to 5 (more than a hundred times it).
 // Level 2 is still within. Null where there is no such error, or where the motion failed as a whole.
 export function levelOf(one, cell, tolerance) {
   if (!cell || judgement(cell).kind === "bad") return null;
-  const error = one.main.startsWith("energy") ? null : metricOf(cell, one.main);
+  const error = isAgainstTolerance(one) ? metricOf(cell, one.main) : null;
   if (error === null) return null;
   return Math.min(5, Math.max(0, Math.ceil(Math.log10(Math.max(error, 1e-300) / tolerance) - 1e-9) + 2));
 }

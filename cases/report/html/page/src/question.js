@@ -2,6 +2,8 @@
 const questions = {
   position_error: "How far does each engine's motion stray from the true path?",
   orientation_error: "How far does each engine's rotation stray from the true one?",
+  mean_position_error: "How far does each engine's motion stray from the recorded one?",
+  mean_rotation_error: "How far does each engine's rotation stray from the recorded one?",
 };
 
 // The paragraphs of the comment at the head of the file.
