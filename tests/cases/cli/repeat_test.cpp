@@ -41,7 +41,8 @@ BOOST_AUTO_TEST_CASE(a_plugin_that_restores_less_than_it_had_does_not_repeat) {
   };
   const auto restored = [](const Answer& answer) {
     std::string said;
-    for (const Json& change : Json::parse(answer.out)[0].at("changes")) {
+    const Json report = Json::parse(answer.out);
+    for (const Json& change : report[0].at("changes")) {
       if (change.at("change") == "restored") said += change.at("status").get<std::string>() + " ";
     }
     return said;

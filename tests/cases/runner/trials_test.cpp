@@ -105,7 +105,8 @@ BOOST_AUTO_TEST_CASE(the_folder_of_data_has_what_does_not_stand_beside_the_case)
   BOOST_TEST_REQUIRE(recording != nullptr);
   BOOST_TEST(recording->trials.size() == 2u);
   BOOST_TEST((definition.scene.bodies[0].velocity == recording->trials[0].bodies[0].velocities[0]));
-  BOOST_TEST(missing_recording(definition) != "");
+  BOOST_TEST(missing_recording(definition) == "");
+  BOOST_TEST(missing_recording(read_case(path, "slide", test::words())) != "");
 }
 
 BOOST_AUTO_TEST_CASE(bad_keys_are_refused_with_their_place) {
