@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(a_signal_that_the_program_was_told_to_ignore_stops_no_cell)
 BOOST_AUTO_TEST_CASE(an_interrupted_command_offers_to_resume_only_if_it_can) {
   for (const bool can : {true, false}) {
     std::vector<std::string> words = {can ? "run" : "trace", "stone", "--engine", "core:rk4", "--dt", "1e-8"};
-    if (can) words.insert(words.end(), {"--out", out});
+    words.insert(words.end(), {can ? "--out" : "--every", can ? out : "1000"});
     const pid_t pid = start(words);
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     kill(pid, SIGINT);
