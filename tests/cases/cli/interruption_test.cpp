@@ -148,6 +148,9 @@ BOOST_AUTO_TEST_CASE(an_interrupted_command_offers_to_resume_only_if_it_can) {
     std::vector<std::string> words = {can ? "run" : "trace", "stone", "--engine", "core:rk4", "--dt", "1e-8"};
     words.insert(words.end(), {can ? "--out" : "--every", can ? out : "1000"});
     const pid_t pid = start(words);
+    const fs::path growing = fs::path(out) / ".rigor-partial";
+    for (int i = 0; can && i < 2000 && !fs::exists(growing); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     kill(pid, SIGINT);
     const Answer answer = wait_for(pid);
