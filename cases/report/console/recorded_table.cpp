@@ -6,27 +6,18 @@
 #include "cases/report/wording/recorded_error.h"
 
 namespace rigor {
-namespace {
-
-// In characters, of which some take several bytes.
-std::size_t characters_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-}  // namespace
 
 std::string recorded_table(const Results& results, const CaseResult& result) {
   const TextTable table = recorded_errors(results, result);
   if (table.rows.empty()) return "";
   std::vector<std::size_t> widths(table.rows[0].size());
   for (const auto& row : table.rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], characters_of(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
   std::string text = "  " + wrapped(table.heading, 2) + "\n";
   for (const auto& row : table.rows) {
     std::string line = " ";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string blanks(widths[i] - characters_of(row[i]), ' ');
+      const std::string blanks(widths[i] - width_of(row[i]), ' ');
       line += " " + (i == 0 ? row[i] + blanks : blanks + row[i]);
     }
     line.erase(line.find_last_not_of(' ') + 1);

@@ -8,7 +8,8 @@
 namespace rigor {
 namespace {
 
-// Mean ± standard deviation, median, worst with its trial; the latter are empty for a single trial.
+// Mean ± standard deviation, median, worst with its trial; the latter are empty for a single trial. Trials without a
+// value are not in the mean, which then says how many are.
 std::vector<std::string> columns_of(const Cell& cell, const std::vector<TrialResult>& trials,
                                     const std::string& metric) {
   const auto found = cell.metrics.find(metric);
@@ -18,7 +19,9 @@ std::vector<std::string> columns_of(const Cell& cell, const std::vector<TrialRes
   const std::string mean = three_digits(value.value);
   const auto in_brackets = [&](const std::string& text) { return value.is_held_to_itself ? "(" + text + ")" : text; };
   if (!spread) return {in_brackets(mean), "", ""};
-  return {in_brackets(fmt::format("{} ± {}", mean, three_digits(spread->standard_deviation))),
+  const std::string of =
+      spread->count < trials.size() ? fmt::format(", {} of {} trials", spread->count, trials.size()) : "";
+  return {in_brackets(fmt::format("{} ± {}{}", mean, three_digits(spread->standard_deviation), of)),
           three_digits(spread->median), fmt::format("{} in {}", three_digits(spread->worst_value), spread->worst)};
 }
 
