@@ -1,4 +1,6 @@
 // A camera that circles a point; moved by mouse, pen and fingers. Both ways of drawing look through it.
+import { cross, dot } from "./vectors.js";
+
 export class Camera {
   constructor(up) {
     this.up = up;
@@ -82,6 +84,3 @@ export function moveByHand(camera, surface, onMove) {
     { passive: false },
   );
 }
-
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];

@@ -1,6 +1,7 @@
 // Draws the stage with lines on a plain canvas, where there is no WebGL.
 import { coil, inBody, pointOf, rimsOf, turn } from "./scene_model.js";
 import { colour, isDark } from "./theme.js";
+import { cross } from "./vectors.js";
 
 const edges = [
   [0, 1],
@@ -173,5 +174,3 @@ export class CanvasView {
 // The cosines and sines of a closed circle.
 const ring = (count) =>
   Array.from({ length: count + 1 }, (_, k) => [Math.cos((2 * Math.PI * k) / count), Math.sin((2 * Math.PI * k) / count)]);
-
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];

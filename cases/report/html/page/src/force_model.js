@@ -1,10 +1,7 @@
 // The drawing of contact forces: for each pair an arrow from where its resultant acts, and the friction cone around the
 // normal. A force inside its cone holds; one on the cone slides.
+import { cross, dot, moved, unit } from "./vectors.js";
 
-const add = (p, v, by) => p.map((x, k) => x + by * v[k]);
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const unit = (v) => v.map((x) => x / (Math.hypot(...v) || 1));
 const across = (v) => unit(cross(v, Math.abs(v[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0]));
 
 // The friction of each pair of bodies in a scene; not a number where it is infinite.
@@ -48,19 +45,19 @@ export function forceSegments(found, friction, metres, most) {
   for (const { a, b, point, force, normal, size } of found) {
     const length = Math.min(most, metres * size),
       way = unit(force),
-      tip = add(point, way, length),
+      tip = moved(point, way, length),
       side = across(way);
     arrows.push([point, tip]);
-    for (const sign of [-1, 1]) arrows.push([tip, add(add(tip, way, -0.2 * length), side, sign * 0.08 * length)]);
+    for (const sign of [-1, 1]) arrows.push([tip, moved(moved(tip, way, -0.2 * length), side, sign * 0.08 * length)]);
     const mu = friction(a, b),
       height = (length * dot(force, normal)) / size;
     if (!(mu > 0) || !Number.isFinite(mu) || !(height > 0)) continue;
     const u = across(normal),
       v = cross(normal, u),
-      centre = add(point, normal, height);
+      centre = moved(point, normal, height);
     const rim = Array.from({ length: 13 }, (_, k) => {
       const angle = (2 * Math.PI * k) / 12;
-      return add(add(centre, u, mu * height * Math.cos(angle)), v, mu * height * Math.sin(angle));
+      return moved(moved(centre, u, mu * height * Math.cos(angle)), v, mu * height * Math.sin(angle));
     });
     for (let k = 0; k < 12; ++k) cones.push([rim[k], rim[k + 1]]);
     for (let k = 0; k < 12; k += 3) cones.push([point, rim[k]]);

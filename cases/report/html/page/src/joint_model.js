@@ -1,5 +1,6 @@
 // The drawing of joints: the joint's point on each of its two bodies, its axis, and the gap between the points.
 import { pointOf, turn } from "./scene_model.js";
+import { moved } from "./vectors.js";
 
 const world = { position: [0, 0, 0], orientation_wxyz: [1, 0, 0, 0] };
 
@@ -39,7 +40,6 @@ const within = (body, p) =>
 
 const identity = new Float32Array([0, 0, 0, 1, 0, 0, 0]);
 const poseOf = (poses, body) => (body < 0 ? identity : poses.subarray(7 * body, 7 * body + 7));
-const add = (p, v, by) => p.map((x, k) => x + by * v[k]);
 
 // `marks`: a cross at each joint and its axes; `gaps`: from one body's point to the other's, wider than `seen`. Segments
 // of two points each; `size` is that of a cross.
@@ -52,12 +52,12 @@ export function jointSegments(joints, poses, size, seen) {
       axes = joint.axes.map(([body, axis]) => turn([...poseOf(poses, body).subarray(3, 7)], axis));
     for (const k of [0, 1, 2]) {
       const way = [0, 1, 2].map((i) => (i === k ? 1 : 0));
-      marks.push([add(q, way, -size / 2), add(q, way, size / 2)]);
+      marks.push([moved(q, way, -size / 2), moved(q, way, size / 2)]);
     }
-    for (const axis of axes) marks.push([add(q, axis, -2.5 * size), add(q, axis, 2.5 * size)]);
+    for (const axis of axes) marks.push([moved(q, axis, -2.5 * size), moved(q, axis, 2.5 * size)]);
     const between = q.map((v, k) => v - p[k]);
     const along = joint.slides ? axes[0].reduce((sum, v, k) => sum + v * between[k], 0) : 0;
-    const from = joint.slides ? add(p, axes[0], along) : p; // motion along a free axis is no gap
+    const from = joint.slides ? moved(p, axes[0], along) : p; // motion along a free axis is no gap
     if (!joint.isRod && !joint.isLoose && Math.hypot(...q.map((v, k) => v - from[k])) > seen) gaps.push([from, q]);
   }
   return { marks, gaps };

@@ -1,4 +1,4 @@
-// What the plots over time show at first, and how a finger moves their time.
+// The first choices of the plots over time, and the finger that moves their time.
 
 // The pairs of bodies of which any run tells a contact force.
 export function pairsOf(data) {

@@ -2,6 +2,7 @@
 import { el, svg } from "./dom.js";
 import { jointsOf } from "./joint_model.js";
 import { coil, drawables, extentOf, pointOf, springsOf, turn, up } from "./scene_model.js";
+import { cross, dot, unit } from "./vectors.js";
 
 const width = 340,
   height = 210,
@@ -9,9 +10,6 @@ const width = 340,
   mostBodies = 400,
   fewNames = 4;
 
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const unit = (v) => v.map((x) => x / (Math.hypot(...v) || 1));
 
 // The horizontal direction along which the points spread most lies across the picture; the other one is slanted.
 function viewOf(scene, points) {

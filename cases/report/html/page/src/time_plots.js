@@ -289,7 +289,7 @@ export class TimePlots {
     return told.length ? el("p.fine.coinciding", {}, `Curves that coincide: ${told.join("; ")}.`) : null;
   }
 
-  // What the runs that did not blow up and the truth span: those that did would leave nothing of the others to be seen.
+  // The range of the truth and of the runs that did not blow up. Those that did would make the others invisible.
   tameRange(series, truth) {
     let low = Infinity,
       high = -Infinity;
