@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "cases/analysis/fitting/fitting.h"
 #include "cases/case/case_reader.h"
@@ -19,6 +18,7 @@
 #include "cases/report/wording/printed_command.h"
 #include "cases/report/wording/wording.h"
 #include "core/base/error.h"
+#include "core/base/json.h"
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/writing/value_writer.h"
 
@@ -129,12 +129,11 @@ std::string text_of(const RunName& run, const FitResult& fit) {
 
 // The place of the recording stays known where the new file stands elsewhere.
 std::string with_absolute_recording(std::string text, const Case& definition) {
-  const auto recording = definition.recording;
-  if (!recording) return text;
+  if (!definition.recording) return text;
   const TomlFile file = TomlFile::parse(text, definition.path);
   const TextRange range = file.root(case_keys()).at("truth").table(truth_keys()).at("file").range();
-  const std::string path = std::filesystem::absolute(recording->path).string();
-  return text.replace(range.begin, range.end - range.begin, fmt::format("'{}'", path));
+  const std::string path = std::filesystem::absolute(definition.recording->path).string();
+  return text.replace(range.begin, range.end - range.begin, Json(path).dump());  // JSON's escapes are TOML's, too
 }
 
 void write_fitted(const FitRequest& asked, const Case& definition, const std::vector<SweepAxis>& axes,
@@ -145,10 +144,7 @@ void write_fitted(const FitRequest& asked, const Case& definition, const std::ve
   }
   text = with_absolute_recording(text, definition);
   read_case_text(text, asked.out, asked.out, words);
-  std::ofstream file(asked.out, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw InputError(fmt::format("--out: {} could not be written", asked.out));
+  write_file("--out", asked.out, text);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (axes[i].kind != SweepAxis::Kind::scene)
       say(fmt::format("{} is no value of the scene: give it to the run, as --engine or --dt", axes[i].key));

@@ -2,13 +2,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
@@ -51,20 +48,6 @@ std::string current_commit() {
   return is_good ? commit : kNone;
 }
 
-// Replaces the page as a whole, or leaves the old one.
-void write_page(const std::string& file, const std::string& text) {
-  const std::string growing = file + ".partial";
-  std::ofstream stream(growing, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) fs::rename(growing, file, error);
-  if (stream && !error) return;
-  const std::string why = error ? error.message() : std::strerror(errno);
-  fs::remove(growing, error);
-  throw InputError(fmt::format("--page {}: cannot be written: {}", file, why));
-}
-
 class HistoryCommand : public Command {
  public:
   void declare(Options& options) override {
@@ -96,7 +79,7 @@ class HistoryCommand : public Command {
   int show() const {
     const std::vector<HistoryEntry> history = read_history(file_);
     const std::vector<std::string> words(words_.begin() + 1, words_.end());
-    if (!page_.empty()) write_page(page_, history_page(history, words));
+    if (!page_.empty()) write_file("--page", page_, history_page(history, words));
     print_table(history_table(history, words));
     return kGood;
   }

@@ -8,7 +8,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+
+#include "core/base/error.h"
 
 namespace rigor {
 namespace {
@@ -71,6 +75,19 @@ void print(const std::string& text) {
       std::fwrite(shown.data(), 1, shown.size(), stdout) == shown.size() && std::fflush(stdout) == 0;
   if (!is_written && errno != EPIPE)
     throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
+}
+
+void write_file(const std::string& option, const std::string& file, const std::string& text) {
+  const std::string growing = file + ".partial";
+  std::ofstream stream(growing, std::ios::binary);
+  stream << text;
+  stream.close();
+  std::error_code error;
+  if (stream) std::filesystem::rename(growing, file, error);
+  if (stream && !error) return;
+  const std::string why = error ? error.message() : std::strerror(errno);
+  std::filesystem::remove(growing, error);
+  throw InputError(fmt::format("{} {}: cannot be written: {}", option, file, why));
 }
 
 void say(const std::string& line) {

@@ -19,6 +19,9 @@ void print(const std::string& text);
 // Prints text for people to read.
 inline void print_table(const std::string& text) { print(harmless(text)); }
 
+// Writes the file as a whole, or leaves an old one as it was. Throws InputError that names `option`.
+void write_file(const std::string& option, const std::string& file, const std::string& text);
+
 // Prints a line on stderr that begins with "rigor: ". Never throws.
 void say(const std::string& line);
 
