@@ -21,7 +21,6 @@
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
-namespace {
 
 Status status_of(FailureKind kind) {
   switch (kind) {
@@ -38,6 +37,8 @@ Status status_of(FailureKind kind) {
   }
   return Status::invalid;
 }
+
+namespace {
 
 Cell cell_that_ended(Cell cell, const JobEnd& end, double limit) {
   cell.reason = sentence_of(end, limit);

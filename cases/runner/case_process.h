@@ -6,6 +6,7 @@
 #include "cases/runner/journal/case_journal.h"
 #include "cases/runner/process_pool.h"
 #include "cases/runner/truth_samples.h"
+#include "core/engine/engine_failure.h"
 
 namespace rigor {
 
@@ -23,6 +24,9 @@ struct JudgedCell {
 JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTable& engines, const RunName& run_name,
                     const Truth* truth, const TruthFacts& facts, const GridOptions& options,
                     const TruthOnSteps& truth_on_steps = {}, const EnsembleReference* reference = nullptr);
+
+// How a cell ended whose engine failed in this way.
+Status status_of(FailureKind kind);
 
 // `truth` may be null.
 TruthFacts facts_of(const Case& definition, const Truth* truth);

@@ -4,7 +4,6 @@
 
 #include "cases/results/trial_results.h"
 #include "cases/truth/recorded/recorded_motion.h"
-#include "core/engine/engine_failure.h"
 
 namespace rigor {
 namespace {
@@ -13,22 +12,6 @@ struct Trials {
   std::vector<Cell> cells;
   std::vector<TrialResult> results;
 };
-
-Status status_of_failure(FailureKind kind) {
-  switch (kind) {
-    case FailureKind::unsupported:
-      return Status::unsupported;
-    case FailureKind::diverged:
-      return Status::diverged;
-    case FailureKind::crashed:
-      return Status::crashed;
-    case FailureKind::timed_out:
-      return Status::timed_out;
-    case FailureKind::invalid:
-      break;
-  }
-  return Status::invalid;
-}
 
 // From the best to the worst.
 int rank_of(Status status) {
@@ -118,7 +101,7 @@ JudgedCell run_trials(const Case& definition, const std::shared_ptr<const Motion
       if (k == 0) path = std::move(judged.path);
     } catch (const EngineFailure& failure) {
       if (k == 0 && failure.kind() == FailureKind::unsupported) throw;
-      cell.status = status_of_failure(failure.kind()), cell.reason = failure.what();
+      cell.status = status_of(failure.kind()), cell.reason = failure.what();
     }
     TrialResult result{recording->trials[k].name, cell.status, cell.reason, {}};
     for (const auto& [metric, value] : cell.metrics)
