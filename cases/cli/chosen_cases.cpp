@@ -19,9 +19,8 @@ void say_how_imported(const Case& definition) {
   for (const Loss& loss : losses_of(definition.losses, LossKind::physical))
     say(fmt::format("{}: lost: {}", definition.id, sentence_of(loss)));
   if (count(LossKind::assumed) + count(LossKind::visual) > 0)
-    say(fmt::format(
-        "{}: {} assumptions, and {} kinds of elements without effect on the motion; rigor import lists them",
-        definition.id, count(LossKind::assumed), count(LossKind::visual)));
+    say(fmt::format("{}: assumptions: {}; kinds of elements without effect on the motion: {}; rigor import lists them",
+                    definition.id, count(LossKind::assumed), count(LossKind::visual)));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which metrics compare a run with a truth that its own code has made: such a comparison is no witness.
+// Metrics that compare a run with a truth from the same code. Such a comparison is no witness.
 #pragma once
 
 #include <string>

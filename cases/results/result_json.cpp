@@ -125,7 +125,7 @@ void fill_in(Cell& cell, const Json& json, const Scene& scene) {
     cell.settings.emplace_back(name, value.get<std::string>());
 }
 
-// Of each trial its values, and of each mean its spread.
+// The values of each trial, and the spread of each mean.
 void add_trials(const Cell& cell, Json& json) {
   const std::vector<TrialResult> trials = trials_of(cell);
   for (const TrialResult& trial : trials) {

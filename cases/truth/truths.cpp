@@ -85,7 +85,7 @@ void refuse_pairs_apart(const std::string& kind, const Scene& scene) {
                   kind, scene.body_name(apart->a), scene.body_name(apart->b)));
 }
 
-// Of all truths `rolling` alone knows rolling and torsional friction, and `soft-bounce` soft contacts.
+// Only the truth `rolling` knows rolling and torsional friction, and only `soft-bounce` soft contacts.
 void refuse_other_laws(const std::string& kind, const Scene& scene) {
   if (kind == "reference" || !anything_can_touch(scene)) return;
   if (kind != "rolling" && any_law(scene, [](const ContactLaw& law) { return law.resists_turning(); }))

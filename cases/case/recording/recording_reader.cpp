@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Beside the case file, else in the folder RIGOR_DATA; empty if it is in neither.
+// The file beside the case file, else the one in the folder RIGOR_DATA; empty if it is in neither.
 std::string found_file(const TomlValue& file) {
   const std::string name = file.text();
   std::error_code error;

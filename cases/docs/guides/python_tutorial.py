@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Rigor from Python
 #
-# Four questions, each answered in a few lines: which engine and step suit a robot's arm, why two engines part, which
-# friction fits a recording, and how exact an engine of one's own is. Open this file in VS Code or Jupyter and run it cell
+# It answers four questions. Which engine and step suit a robot's arm? Why do two engines part? Which friction fits a
+# recording? How exact is an engine of one's own? Open this file in VS Code or Jupyter and run it cell
 # by cell, or run it as a script. It writes one file into the current folder.
 
 # %%

@@ -7,7 +7,7 @@ namespace {
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-// As the page draws it: a compound as its parts, and a hull with the triangles of its surface.
+// The shape as the page draws it: a compound as its parts, and a hull with the triangles of its surface.
 Json drawn_shape_json(const Shape& shape) {
   if (const auto* compound = std::get_if<Compound>(&shape)) {
     Json json = {{"type", "compound"}, {"parts", parse_json(shape_json(shape))}};

@@ -17,7 +17,7 @@ struct RecordedGap {
   double gap = 0;  // m, or rad
 };
 
-// Of every body and every sample of the run after the start, as far as this part was measured there. The start is left
+// The gaps of every body at every sample of the run, as far as this part was measured there. The first sample is left
 // out, because the run begins where the recording does.
 std::vector<RecordedGap> recorded_gaps(const Trajectory& trajectory, const RecordedMotion& truth, RecordedPart part);
 

@@ -1,10 +1,10 @@
-// Soft contact: the force law of a pair is part of the equations of motion. At an overlap x of two spheres, or of a
-// sphere and a plane, the force along the normal is max(0, k x + c x') (Kelvin and Voigt) or max(0, k x (1 + d x'))
-// (Hunt and Crossley, J. Appl. Mech. 42, 1975), without friction. The integrator asks for it at each of its stages. An
-// integrator that does not ask for forces is replaced by rkmk4, or above order 4 by dormand-prince. The force begins
-// and ends with a jump in its slope, or, with c > 0, in its value: methods of fixed step lose their order there, and
-// dormand-prince shortens its steps until its tolerance is met. Every pair of spheres is looked at, so the method is
-// for few bodies.
+// Soft contact: the force law of a pair is part of the equations of motion. Let x be the overlap of two spheres,
+// or of a sphere and a plane. The force along the normal is max(0, k x + c x') (Kelvin and Voigt) or
+// max(0, k x (1 + d x')) (Hunt and Crossley, J. Appl. Mech. 42, 1975). There is no friction. The integrator asks for
+// the force at each of its stages. An integrator that does not ask for forces is replaced by rkmk4, or above order 4 by
+// dormand-prince. The force begins and ends with a jump in its slope, or, with c > 0, in its value. Methods of fixed
+// step lose their order there. dormand-prince shortens its steps until its tolerance is met. Every pair of spheres is
+// looked at, so the method is for few bodies.
 #include <fmt/format.h>
 
 #include <algorithm>
