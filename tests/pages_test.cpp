@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(pages)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,8 +76,6 @@ std::size_t words_of(const std::string& entry) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(pages)
 
 BOOST_AUTO_TEST_CASE(every_readme_has_the_standard_headings_in_their_order) {
   int readmes = 0;

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(rooms)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,8 +161,6 @@ std::map<std::string, Names> types_in(const std::string& file, std::istream& in)
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rooms)
 
 BOOST_AUTO_TEST_CASE(a_room_includes_only_rooms_before_it) {
   const std::vector<Include> includes = all_includes();

@@ -15,6 +15,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_jointed_laws)
+
 namespace {
 
 constexpr double kStep = 1.0 / 240;  // s
@@ -148,8 +150,6 @@ void check_law(const Scene& scene, Scene (*tell_otherwise)(Scene)) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_jointed_laws)
 
 BOOST_AUTO_TEST_CASE(a_turned_frame_is_the_same_frame) {
   for (const Scene& scene : {tree(), parallel_cranks()}) {

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_joints_with_contacts)
+
 namespace {
 
 constexpr double kSampling = 0.02;  // s
@@ -143,8 +145,6 @@ bool falls_with_step(double coarse, double fine) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_joints_with_contacts)
 
 BOOST_AUTO_TEST_CASE(every_engine_with_contacts_and_joints_takes_both_together) {
   for (const EngineInfo& info : engines().infos()) {

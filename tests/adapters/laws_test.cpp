@@ -15,6 +15,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_laws)
+
 namespace {
 
 constexpr double kStep = 1.0 / 120;  // s
@@ -221,8 +223,6 @@ const std::vector<Law> kLaws = {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_laws)
 
 BOOST_AUTO_TEST_CASE(the_same_scene_told_in_another_way_moves_in_the_same_way) {
   std::set<const Exception*> needed;

@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_option_defaults)
+
 namespace {
 
 constexpr double kDt = 1.0 / 120;
@@ -66,8 +68,6 @@ std::string other_value(const OptionInfo& option, Track track) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_option_defaults)
 
 BOOST_AUTO_TEST_CASE(every_option_of_every_method_states_a_default_that_it_allows) {
   int options = 0;

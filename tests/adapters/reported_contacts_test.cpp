@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_reported_contacts)
+
 namespace {
 
 constexpr double kG = 9.81, kStep = 1.0 / 240;
@@ -96,8 +98,6 @@ Sums sums_of(const std::vector<ReportedContact>& contacts, BodyColumns bodies) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_reported_contacts)
 
 BOOST_AUTO_TEST_CASE(a_box_at_rest_is_carried_with_its_weight) {
   const Scene scene = scenes()[0].scene;

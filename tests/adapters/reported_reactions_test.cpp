@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_reported_reactions)
+
 namespace {
 
 constexpr double kG = 9.81, kStep = 1.0 / 240;
@@ -70,8 +72,6 @@ ReportedReaction after_one_step(const std::string& engine, const Scene& scene) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_reported_reactions)
 
 BOOST_AUTO_TEST_CASE(what_hangs_is_carried_with_its_weight) {
   for (const auto& [engine, within] : reporting()) {

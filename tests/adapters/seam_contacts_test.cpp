@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
   for (const Resting& pair : resting_pairs()) {
     Scene scene;
     scene.gravity = {0, 0, -g};
-    scene.bodies = {solid("above", pair.above, {0, 0, pair.height + drop}), solid("below", pair.below, Vec3::Zero())};
+    scene.bodies = {two_kilograms("above", pair.above, {0, 0, pair.height + drop}), two_kilograms("below", pair.below, Vec3::Zero())};
     scene.bodies[1].fixed = true;
     const Feature feature = contact_feature(pair.above, pair.below);
     for (const Run& run : all_runs()) {
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
 BOOST_AUTO_TEST_CASE(each_pair_of_bodies_follows_its_own_law) {
   Scene scene;
   scene.gravity = {0, -9.8, 0};
-  scene.bodies = {solid("dead", Sphere{0.1}, {0, 0.6, 0}), solid("lively", Sphere{0.1}, {2, 0.6, 0}),
+  scene.bodies = {two_kilograms("dead", Sphere{0.1}, {0, 0.6, 0}), two_kilograms("lively", Sphere{0.1}, {2, 0.6, 0}),
                   ground({0, 1, 0})};
   scene.contact_pairs = {{0, 2, {0, kInfiniteFriction}}, {2, 1, {0.8, kInfiniteFriction}}};
   for_each_run(scene, 1e-3, [&](const Run& run) {
@@ -117,8 +117,8 @@ BOOST_AUTO_TEST_CASE(a_pair_that_the_scene_keeps_apart_never_touches) {
   const double dt = 1.0 / 240, g = 9.81, t = 1, v = 1;
   Scene scene;
   scene.gravity = {0, 0, -g};
-  scene.bodies = {solid("left", Sphere{0.1}, {-0.5, 0, 10}), solid("right", Sphere{0.1}, {0.5, 0, 10}),
-                  solid("falls", Sphere{0.1}, {0, 2, 0.1}), solid("rests", Sphere{0.1}, {0, 4, 0.1}),
+  scene.bodies = {two_kilograms("left", Sphere{0.1}, {-0.5, 0, 10}), two_kilograms("right", Sphere{0.1}, {0.5, 0, 10}),
+                  two_kilograms("falls", Sphere{0.1}, {0, 2, 0.1}), two_kilograms("rests", Sphere{0.1}, {0, 4, 0.1}),
                   ground({0, 0, 1})};
   scene.bodies[0].velocity = {v, 0, 0}, scene.bodies[1].velocity = {-v, 0, 0};
   scene.contact_pairs = {{1, 0, kApart}, {2, 4, kApart}};
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(a_fixed_body_lies_as_it_is_turned) {
   const Quat tilted = rotation_by({0, angle, 0});
   Scene scene;
   scene.gravity = {0, 0, -g};
-  scene.bodies = {solid("ball", Sphere{r}, tilted * Vec3(0, 0, 0.5 + r)), solid("slope", Box{{4, 4, 1}}, Vec3::Zero())};
+  scene.bodies = {two_kilograms("ball", Sphere{r}, tilted * Vec3(0, 0, 0.5 + r)), two_kilograms("slope", Box{{4, 4, 1}}, Vec3::Zero())};
   scene.bodies[1].fixed = true, scene.bodies[1].orientation = tilted;
   scene.contact_default = {0, 0};
   for_each_run(scene, dt, [&](const Run& run) {
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(a_body_touches_with_its_shape_and_not_with_its_principal_ax
   const double dt = 1.0 / 240, drop = 0.02, g = 9.81;
   Scene scene;
   scene.gravity = {0, 0, -g};
-  scene.bodies = {solid("plate", Box{{1, 0.6, 0.2}}, {0, 0, 0.1 + drop}), ground({0, 0, 1})};
+  scene.bodies = {two_kilograms("plate", Box{{1, 0.6, 0.2}}, {0, 0, 0.1 + drop}), ground({0, 0, 1})};
   scene.bodies[0].inertia = full_inertia() / 5;
   scene.contact_default = {0, kInfiniteFriction};
   for_each_run(scene, dt, [&](const Run& run) {

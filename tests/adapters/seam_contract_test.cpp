@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(time_advances_by_dt) {
 BOOST_AUTO_TEST_CASE(load_then_read_returns_the_scene) {
   Scene scene = top();
   scene.bodies.push_back(moving_body());
-  Body fixed = solid("fixed", Box{{1, 2, 3}}, {0, 5, 0});
+  Body fixed = two_kilograms("fixed", Box{{1, 2, 3}}, {0, 5, 0});
   fixed.fixed = true;
   fixed.collides = false;
   fixed.orientation = Quat(0.3, -0.4, 0.2, 0.1).normalized();

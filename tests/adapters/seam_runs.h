@@ -136,7 +136,7 @@ inline Body ground(const Vec3& normal) {
   return body;
 }
 
-inline Body solid(const std::string& name, const Shape& shape, const Vec3& position) {
+inline Body two_kilograms(const std::string& name, const Shape& shape, const Vec3& position) {
   Body body;
   body.name = name;
   body.mass = 2;
@@ -153,7 +153,7 @@ inline Scene small_pile() {
   scene.gravity = {0, 0, -9.81};
   for (int i = 0; i < 12; ++i) {
     const Vec3 position(0.15 * (i % 2) + 0.01 * i, 0.15 * (i / 2 % 2), 0.2 + 0.25 * (i / 4));
-    scene.bodies.push_back(solid("ball " + std::to_string(i), Sphere{0.1}, position));
+    scene.bodies.push_back(two_kilograms("ball " + std::to_string(i), Sphere{0.1}, position));
   }
   scene.bodies.push_back(ground({0, 0, 1}));
   scene.contact_default = {0.3, 0.5};

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_soft_contacts)
+
 namespace {
 
 constexpr double kRate = 1e4, kHalf = 0.1;  // N/m, m: the ball's radius
@@ -46,8 +48,6 @@ void for_each_matched(const Scene& scene, std::size_t least, const std::function
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_soft_contacts)
 
 // Implicit Euler of the spring: the error halves with the step, 5 % at w dt = 0.1.
 BOOST_AUTO_TEST_CASE(the_speed_after_a_bounce_converges_to_the_closed_form) {

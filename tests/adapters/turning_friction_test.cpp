@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_turning_friction)
+
 namespace {
 
 constexpr double kG = 9.81, kBallRadius = 0.1, kRound = 0.4, kStep = 1.0 / 1000;  // m/s², m, 1, s
@@ -58,8 +60,6 @@ void for_each_matched(const Scene& scene, std::size_t least, const std::function
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_turning_friction)
 
 BOOST_AUTO_TEST_CASE(a_ball_slows_by_the_couple_of_rolling_friction_in_any_direction) {
   for (const double heading : {0.0, 0.5, 0.785}) {

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_turning_limits)
+
 namespace {
 
 constexpr double kStep = 1.0 / 240, kSpeed = 3;  // s, rad/s
@@ -26,8 +28,6 @@ Scene wheel(double upper, bool is_b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_turning_limits)
 
 BOOST_AUTO_TEST_CASE(a_wheel_turns_until_its_limit_and_no_further) {
   for (const double upper : {3.1, 4.0, 2 * std::numbers::pi, 10.0}) {

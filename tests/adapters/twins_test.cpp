@@ -14,6 +14,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_twins)
+
 namespace {
 
 struct SmoothScene {
@@ -122,8 +124,6 @@ Unexplained unexplained(const RunName& name, const RunName& twin_name, const Sce
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_twins)
 
 // Verlet's iteration for the velocities does not converge on these springs at 1/30 s. The result of such a step depends
 // on its residual (VerletIntegrator.cpp returns before or after the last projection), and quaternions then stay

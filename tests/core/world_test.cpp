@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_world)
+
 namespace {
 
 const char* const kThrown = R"(title = "A stone"
@@ -32,8 +34,6 @@ std::string why(const std::string& run, const Scene& scene = test::tumbling_body
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_world)
 
 BOOST_AUTO_TEST_CASE(a_scene_file_is_loaded_stepped_and_read) {
   const Folder folder;

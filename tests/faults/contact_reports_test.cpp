@@ -13,6 +13,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(faults_contact_reports)
+
 namespace {
 
 constexpr double kStep = 1.0 / 240;
@@ -52,8 +54,6 @@ bool is_found(const Engine& engine, const Settings& settings, const Scene& scene
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(faults_contact_reports)
 
 BOOST_AUTO_TEST_CASE(each_wrong_report_is_found_in_each_engine) {
   const Scene scene = held_box();

@@ -24,6 +24,8 @@
 using namespace rigor;
 using test::ShownBy;
 
+BOOST_AUTO_TEST_SUITE(faults_faults)
+
 namespace {
 
 // The table of engines with one of them broken.
@@ -161,8 +163,6 @@ std::set<std::string> cases_of_faults(const Wanted& wanted) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(faults_faults)
 
 BOOST_AUTO_TEST_CASE(the_table_is_long_enough_and_has_each_once) {
   std::set<std::string> names;

@@ -13,6 +13,8 @@
 
 #include "tests/fuzz/targets.h"
 
+BOOST_AUTO_TEST_SUITE(fuzz_corpus)
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -53,8 +55,6 @@ std::string asked_for(const char* variable, const char* otherwise) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(fuzz_corpus)
 
 BOOST_AUTO_TEST_CASE(every_file_of_every_corpus_is_read_or_refused) {
   for (const auto& target : rigor::fuzz::targets()) {

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_bullet_bullet_engine)
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -49,8 +51,6 @@ double yaw_of(const Quat& q) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_bullet_bullet_engine)
 
 BOOST_AUTO_TEST_CASE(a_lone_thirtieth_of_a_second_advances_by_a_sixtieth) {
   RawBall ball;

@@ -15,6 +15,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_bullet_bullet_joints)
+
 namespace {
 
 constexpr const char* kReduced = "bullet:multibody";
@@ -96,8 +98,6 @@ Scene pair_of_links() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_bullet_bullet_joints)
 
 // Semi-implicit Euler: of first order, whatever holds the bodies. 0.15 is what the next order leaves at these steps. A
 // body that is fixed to the world stands, but for less than a step's fall.
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(springs_and_dampers_of_joints_converge_to_the_cores) {
 BOOST_AUTO_TEST_CASE(jointed_bodies_rest_on_the_ground) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
-  scene.bodies = {solid("left", Sphere{0.1}, {0, 0, 0.3}), solid("right", Sphere{0.1}, {0.5, 0, 0.3}),
+  scene.bodies = {two_kilograms("left", Sphere{0.1}, {0, 0, 0.3}), two_kilograms("right", Sphere{0.1}, {0.5, 0, 0.3}),
                   ground({0, 0, 1})};
   scene.joints = {{0, 1, HingeJoint{{0.25, 0, 0.3}, {0, 1, 0}}}};
   scene.contact_default = {0, kInfiniteFriction};

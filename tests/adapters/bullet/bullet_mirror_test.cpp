@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_bullet_bullet_mirror)
+
 namespace {
 
 // m, the largest distance between the scene's motion and the mirror image of the mirrored scene's.
@@ -33,8 +35,6 @@ double asymmetry(const std::string& id, const std::string& name, double dt, doub
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_bullet_bullet_mirror)
 
 // One corner, one edge's end, or a capsule's round end: no two points touch in the same instant.
 BOOST_AUTO_TEST_CASE(without_a_tie_contacts_are_mirrored_to_the_last_bit) {

@@ -19,6 +19,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_dart_dart_engine)
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -61,8 +63,6 @@ Scene slow_spin() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_dart_dart_engine)
 
 BOOST_AUTO_TEST_CASE(a_world_that_blows_up_is_lost_before_it_aborts) {
   // The explicit gyroscopic torque spins a top up; a number that is not finite trips an assertion of DART's library.

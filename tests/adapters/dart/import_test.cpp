@@ -10,6 +10,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(adapters_dart_import)
+
 namespace {
 
 const std::string kModels = RIGOR_SOURCE_DIR "/tests/cases/import/models/";
@@ -56,8 +58,6 @@ struct Own {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_dart_import)
 
 // Its reader of SDF does not turn an inertia by the pose of <inertial>, which its reader of URDF does.
 BOOST_AUTO_TEST_CASE(its_own_loaders_and_our_imports_move_alike) {

@@ -15,6 +15,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(adapters_mujoco_import)
+
 namespace {
 
 const std::string kModels = RIGOR_SOURCE_DIR "/tests/cases/import/models/";
@@ -56,8 +58,6 @@ void check_start(const Own& own, const Scene& scene) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_mujoco_import)
 
 BOOST_AUTO_TEST_CASE(its_own_loader_and_our_import_move_alike) {
   for (const char* file : {"mechanism.xml", "arm.urdf", "double_pendulum.urdf"}) {

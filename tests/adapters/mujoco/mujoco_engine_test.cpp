@@ -16,6 +16,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_mujoco_mujoco_engine)
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -37,8 +39,6 @@ double distance_after(const std::string& run, const Scene& scene, double dt, dou
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_mujoco_mujoco_engine)
 
 BOOST_AUTO_TEST_CASE(a_world_that_mujoco_sets_back_to_its_start_is_lost) {
   // The explicit gyroscopic torque spins a top up until a number passes 1e10; MuJoCo then begins again, in silence.

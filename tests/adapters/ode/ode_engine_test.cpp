@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_ode_ode_engine)
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -61,8 +63,6 @@ class RawBox {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_ode_ode_engine)
 
 BOOST_AUTO_TEST_CASE(the_gyroscopic_term_damps_a_free_top) {
   // Measured with ODE 0.16.2: -20.62 %. The digit after it is the test's margin.

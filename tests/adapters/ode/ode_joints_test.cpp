@@ -15,6 +15,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_ode_ode_joints)
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -85,8 +87,6 @@ Scene hinged(test::Ends ends = test::Ends::from_world) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_ode_ode_joints)
 
 BOOST_AUTO_TEST_CASE(each_kind_of_joint_comes_to_the_cores_motion_at_first_order) {
   constexpr double kEnd = 0.4;
@@ -269,7 +269,7 @@ BOOST_AUTO_TEST_CASE(a_spring_and_damper_of_a_joint_act_as_in_the_core) {
 BOOST_AUTO_TEST_CASE(a_pendulum_bounces_off_a_wall) {
   Scene scene;
   scene.gravity = {0, -9.81, 0};
-  Body bob = solid("bob", Sphere{0.05}, {std::sin(kHalfTurn / 3), -0.5, 0});
+  Body bob = two_kilograms("bob", Sphere{0.05}, {std::sin(kHalfTurn / 3), -0.5, 0});
   scene.bodies = {bob, ground({1, 0, 0})};
   scene.bodies[1].shape = Plane{{1, 0, 0}, -0.05};
   scene.joints = {{kWorld, 0, HingeJoint{{0, 0, 0}, {0, 0, 1}}}};

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_ode_ode_twin)
+
 namespace {
 
 // The largest difference of any component of position, of orientation [rad] and of the velocities, after 100 steps.
@@ -32,8 +34,6 @@ std::string twin_name(const std::string& run, const Scene& scene) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_ode_ode_twin)
 
 // Positions to 8 m, speeds to 15 m/s: roundings of 2e-15 in each of a hundred steps, which joints magnify by up to a
 // hundred.

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_plugin_guide)
+
 namespace {
 
 struct Block {
@@ -37,8 +39,6 @@ std::vector<Block> blocks() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_plugin_guide)
 
 BOOST_AUTO_TEST_CASE(every_line_of_it_works) {
   const Folder folder;

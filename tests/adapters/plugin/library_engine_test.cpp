@@ -17,6 +17,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_plugin_library_engine)
+
 namespace {
 
 constexpr double kLimit = 3;  // s
@@ -72,8 +74,6 @@ std::string end_of(const std::string& mode) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_plugin_library_engine)
 
 BOOST_AUTO_TEST_CASE(the_example_steps_as_the_process_does) {
   EngineTable table;

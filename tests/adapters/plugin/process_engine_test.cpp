@@ -19,6 +19,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_plugin_process_engine)
+
 namespace {
 
 constexpr double kLimit = 2;  // s, of sleep or CPU time; Python takes a tenth of that to start
@@ -90,8 +92,6 @@ BodyTable state_after(World& world, double dt, int steps) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_plugin_process_engine)
 
 BOOST_AUTO_TEST_CASE(whatever_it_does_costs_the_cell_in_one_sentence) {
   struct Row {

@@ -20,6 +20,8 @@
 #include "tests/scenes.h"
 
 using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(adapters_plugin_protocol)
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -78,8 +80,6 @@ Json scenes_of_suite() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_plugin_protocol)
 
 // Uses ajv, which comes with the HTML report's page.
 BOOST_AUTO_TEST_CASE(the_schemas_say_what_is_said, *boost::unit_test::enable_if<RIGOR_HTML_REPORT>()) {

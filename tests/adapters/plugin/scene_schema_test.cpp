@@ -9,6 +9,8 @@
 #include "core/scene/shape_types.h"
 
 using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(adapters_plugin_scene_schema)
 using Words = std::set<std::string>;
 
 namespace {
@@ -39,8 +41,6 @@ std::map<std::string, Words> fields_of_table(const Rows& rows) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_plugin_scene_schema)
 
 BOOST_AUTO_TEST_CASE(has_the_joint_types_of_the_table_with_their_vectors) {
   const Words shared = {"type", "a", "b", "stiffness", "damping", "axes"};

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_siconos_contact_truths)
+
 namespace {
 
 double distance_from_truth(const Case& definition, const Truth& truth, double dt, double time) {
@@ -33,8 +35,6 @@ struct Opinion {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_siconos_contact_truths)
 
 BOOST_AUTO_TEST_CASE(siconos_comes_to_the_truth_as_its_step_falls) {
   for (const auto& [id, time] :

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_siconos_siconos_engine)
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -24,8 +26,6 @@ bool is_mapped(const std::string& library) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_siconos_siconos_engine)
 
 // Bullet in single precision crashes beside ours: nothing that brings it may come here.
 BOOST_AUTO_TEST_CASE(neither_its_libraries_nor_their_bullet_come_into_this_process) {

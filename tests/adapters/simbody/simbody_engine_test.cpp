@@ -14,6 +14,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_simbody_simbody_engine)
+
 namespace {
 
 const std::vector<std::string> kFixedSteps = {"explicit-euler",      "merson", "rk2", "rk3",
@@ -95,8 +97,6 @@ std::vector<Scene> rings() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(adapters_simbody_simbody_engine)
 
 // Its own words: a first stepTo() after a start returns without a step, and setFixedStepSize() alone changes nothing
 // once it runs. Steps of three lengths, in turn, are each taken as one.

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_cell_history)
+
 namespace {
 
 const CellKey kKey = {"a", "ode", "1/30"};
@@ -25,8 +27,6 @@ std::vector<HistoryEntry> with_errors(const std::vector<double>& errors) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_cell_history)
 
 // A history keeps four digits, so that 1.000 and 1.001 may be the same number.
 BOOST_AUTO_TEST_CASE(an_error_changes_with_its_third_digit) {

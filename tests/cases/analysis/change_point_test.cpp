@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_change_point)
+
 namespace {
 
 enum class NoiseShape { normal, even, exponential, outliers, spikes };
@@ -112,8 +114,6 @@ double chance_of_student(int n, int split, double correlation, double most) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_change_point)
 
 // The fewest values, three on either side. A tenth is the noise of a busy machine.
 BOOST_AUTO_TEST_CASE(six_values_show_a_fivefold_step) {

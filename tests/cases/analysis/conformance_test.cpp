@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_conformance)
+
 namespace {
 
 Trial trial_of(const Engine& engine, const std::string& run) {
@@ -173,8 +175,6 @@ class Modest : public Engine {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_conformance)
 
 BOOST_AUTO_TEST_CASE(every_engine_of_the_table_conforms) {
   for (const EngineInfo& info : engines().infos()) {

@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_frontier)
+
 namespace {
 
 // Runs "good" and "wild", at two steps each, in as many cases as there are errors; negative: the cell blew up.
@@ -39,8 +41,6 @@ const FrontierPoint& point(const std::vector<Frontier>& frontiers, std::size_t r
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_frontier)
 
 BOOST_AUTO_TEST_CASE(a_point_is_the_geometric_mean_of_its_cases) {
   const auto all = frontiers(results_with({{1e-2, 1e-4, 1, 1}, {1e-4, 1e-6, 1, 1}}));

@@ -13,6 +13,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_laws)
+
 namespace {
 
 ProbeScene probe(const std::string& id) {
@@ -49,8 +51,6 @@ const LawDrift& law_of(const MistakeReport& report, const std::string& law) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_laws)
 
 BOOST_AUTO_TEST_CASE(a_law_is_asked_where_it_holds_alone) {
   using Laws = std::vector<std::string>;

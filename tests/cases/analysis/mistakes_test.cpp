@@ -23,6 +23,8 @@
 #include "tests/cases/vocabulary.h"
 
 using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_analysis_mistakes)
 using Verdict = MistakeReport::Verdict;
 
 namespace {
@@ -223,8 +225,6 @@ std::vector<std::string> engines_asked() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_mistakes)
 
 BOOST_AUTO_TEST_CASE(an_engine_without_a_mistake_has_none_named) {
   for (const std::string& engine : engines_asked()) {

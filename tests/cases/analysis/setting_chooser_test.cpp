@@ -11,7 +11,7 @@
 
 using namespace rigor;
 
-namespace {
+namespace cases_analysis_setting_chooser {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -70,7 +70,7 @@ bool has(const std::vector<std::string>& runs, const std::string& part) {
   return std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.find(part) != std::string::npos; });
 }
 
-}  // namespace
+}  // namespace cases_analysis_setting_chooser
 
 BOOST_FIXTURE_TEST_SUITE(cases_analysis_setting_chooser, Fixture)
 

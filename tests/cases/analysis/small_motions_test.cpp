@@ -7,13 +7,13 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_small_motions)
+
 namespace {
 
 const auto kRounding = boost::test_tools::tolerance(1e-9);  // of dense factors
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_small_motions)
 
 BOOST_AUTO_TEST_CASE(a_scene_without_springs_and_dampers_has_no_small_motions) {
   BOOST_TEST(!SmallMotions::of(test::tumbling_body()));

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_step_needed)
+
 namespace {
 
 constexpr double kMillimetre = 1e-3;
@@ -44,8 +46,6 @@ Results cases_of(const std::vector<std::string>& runs, const std::vector<std::ve
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_step_needed)
 
 BOOST_AUTO_TEST_CASE(a_step_is_tried_between_beyond_or_none) {
   using enum StepNeeded::Found;

@@ -7,9 +7,9 @@
 #include "core/base/error.h"
 
 using namespace rigor;
-using Values = std::vector<std::string>;
 
 BOOST_AUTO_TEST_SUITE(cases_analysis_sweep_axis)
+using Values = std::vector<std::string>;
 
 BOOST_AUTO_TEST_CASE(lists_and_ranges_are_read) {
   BOOST_TEST(parse_axis("iterations=10,20,50", false).values == (Values{"10", "20", "50"}));

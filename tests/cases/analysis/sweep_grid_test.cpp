@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_sweep_grid)
+
 namespace {
 
 SweepInput input_of(const std::vector<std::string>& axes, std::size_t samples = 0, unsigned long seed = 0) {
@@ -26,8 +28,6 @@ const std::vector<std::string> kTwoByTwo = {"scene.spring[0].stiffness=100,200",
                                             "erp=0.1,0.2"};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_sweep_grid)
 
 // The keys have equally many values, so keys that moved together would miss half of the grid.
 BOOST_AUTO_TEST_CASE(every_combination_is_there_once) {

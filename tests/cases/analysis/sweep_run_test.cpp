@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_sweep_run)
+
 namespace {
 
 // Lets the first job end when no other is left, as on a cluster where one cell takes as long as all others.
@@ -28,8 +30,6 @@ class FirstEndsLast : public Executor {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_sweep_run)
 
 // At such a barrier 64 ranks stood still for a fifth of a minute's sweep.
 BOOST_AUTO_TEST_CASE(no_cell_waits_for_another_one_to_end) {

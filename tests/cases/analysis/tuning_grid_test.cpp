@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_tuning_grid)
+
 namespace {
 
 struct Row {
@@ -110,8 +112,6 @@ void check_row(const Row& row, bool by_time) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_tuning_grid)
 
 // The short form compares steps, of which cost is made here; times only where they are asked for, on an idle machine.
 BOOST_AUTO_TEST_CASE(no_setting_of_the_full_grid_is_a_tenth_cheaper_than_the_winner) {

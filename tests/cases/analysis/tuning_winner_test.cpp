@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_tuning_winner)
+
 namespace {
 
 TunedPoint point(const std::string& run, const StepSize& dt, double least, double cost, double most) {
@@ -20,8 +22,6 @@ std::vector<std::string> runs_of(const std::vector<TunedPoint>& points) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_tuning_winner)
 
 // The median of "b" is larger than all costs of "a", and its least cost is not: repeats cannot tell them apart.
 BOOST_AUTO_TEST_CASE(repeats_that_overlap_are_a_tie_and_others_are_none) {

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_work_precision)
+
 namespace {
 
 std::vector<ErrorPoint> points_of(const std::vector<test::Priced>& cells) {
@@ -21,8 +23,6 @@ const std::vector<test::Priced> kFirst = {{0.1, 0.1, 0.01}, {0.01, 0.01, 0.1}, {
 const std::vector<test::Priced> kFourth = {{0.1, 1e-4, 0.02}, {0.01, 1e-8, 0.2}};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_work_precision)
 
 BOOST_AUTO_TEST_CASE(between_its_cells_a_run_is_read_on_the_logarithmic_line) {
   for (const double cost : {0.02, 0.03, 0.1, 0.2}) {

@@ -12,7 +12,7 @@
 
 using namespace rigor;
 
-namespace {
+namespace cases_case_case_reader {
 
 // Lines 1 to 7; what a row adds begins on line 8.
 const std::string kStart = R"(title = "A test"
@@ -102,7 +102,7 @@ const std::vector<Refusal> kBadJudgements = {
      {"empty array"}},
 };
 
-}  // namespace
+}  // namespace cases_case_case_reader
 
 BOOST_FIXTURE_TEST_SUITE(cases_case_case_reader, Folder)
 

@@ -14,6 +14,8 @@
 
 using namespace rigor;
 using test::Json;
+
+BOOST_AUTO_TEST_SUITE(cases_case_case_schema)
 using Words = std::set<std::string>;
 
 namespace {
@@ -145,8 +147,6 @@ void check_same(const Words& in_schema, const Words& in_reader) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_case_case_schema)
 
 BOOST_AUTO_TEST_CASE(has_the_keys_of_the_reader_and_no_others) {
   int tables = 0;

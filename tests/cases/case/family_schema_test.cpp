@@ -13,6 +13,8 @@
 
 using namespace rigor;
 using test::Json;
+
+BOOST_AUTO_TEST_SUITE(cases_case_family_schema)
 namespace fs = std::filesystem;
 
 namespace {
@@ -55,8 +57,6 @@ std::set<std::string> allowed_by(const std::string& refusal) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_case_family_schema)
 
 BOOST_AUTO_TEST_CASE(has_the_keys_of_the_reader_and_no_others) {
   const Keys& read = family_gate_keys();

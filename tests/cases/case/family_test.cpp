@@ -10,7 +10,7 @@
 
 using namespace rigor;
 
-namespace {
+namespace cases_case_family {
 
 const std::string kCase = R"(title = 'x'
 [scene]
@@ -36,7 +36,7 @@ struct Suite : Folder {
 
 std::string gate(const std::string& rest) { return "[[gate]]\nmetric = 'energy_drift'\nbecause = 'x'\n" + rest + "\n"; }
 
-}  // namespace
+}  // namespace cases_case_family
 
 BOOST_FIXTURE_TEST_SUITE(cases_case_family, Suite)
 

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_case_run_selector)
+
 namespace {
 
 MethodInfo method(const std::string& name, int order, bool symplectic, const std::string& twin_of = "") {
@@ -37,8 +39,6 @@ std::string selected(const std::string& selector) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_case_run_selector)
 
 BOOST_AUTO_TEST_CASE(runs_are_selected_by_name_and_by_what_they_are) {
   const std::pair<const char*, const char*> rows[] = {

@@ -9,7 +9,7 @@
 using namespace rigor;
 namespace fs = std::filesystem;
 
-namespace {
+namespace cases_case_suite {
 
 const std::string kCase = "title = 'x'\nscene.body = [{ name = 'a', fixed = true }]\nrun = { duration = 1, dt = 1 }";
 
@@ -39,7 +39,7 @@ struct TwoFolders : Folder {
 
 const std::string kAll = "contact/deep/three contact/two springs/one springs/one-more springs/two";
 
-}  // namespace
+}  // namespace cases_case_suite
 
 BOOST_FIXTURE_TEST_SUITE(cases_case_suite, TwoFolders)
 

@@ -9,7 +9,7 @@
 using namespace rigor;
 using namespace rigor::test;
 
-namespace {
+namespace cases_cli_crash {
 
 constexpr int kSample = 30;  // calls of each kind of fault, where not all are asked for
 
@@ -55,7 +55,7 @@ struct CrashProgram : DisturbedProgram {
 
 bool all_are_asked_for() { return std::getenv("RIGOR_ALL_CRASHES") != nullptr; }
 
-}  // namespace
+}  // namespace cases_cli_crash
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_crash, CrashProgram)
 

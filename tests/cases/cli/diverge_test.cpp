@@ -7,7 +7,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_diverge {
 
 constexpr const char* kTop = R"(title = "a top"
 [scene]
@@ -33,7 +33,7 @@ struct Fixture : Program {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-}  // namespace
+}  // namespace cases_cli_diverge
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_diverge, Fixture)
 

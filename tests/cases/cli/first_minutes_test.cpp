@@ -8,14 +8,14 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_first_minutes {
 
 struct Variable {
   explicit Variable(const std::string& value) { setenv("RIGOR_HOME", value.c_str(), 1); }
   ~Variable() { unsetenv("RIGOR_HOME"); }
 };
 
-}  // namespace
+}  // namespace cases_cli_first_minutes
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_first_minutes, Program)
 

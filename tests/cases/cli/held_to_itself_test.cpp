@@ -8,7 +8,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_held_to_itself {
 
 constexpr const char* kBounces = R"(title = "A ball that bounces, its truth by events"
 [scene]
@@ -33,7 +33,7 @@ struct Fixture : Program {
   Fixture() { folder.write("ball.toml", kBounces); }
 };
 
-}  // namespace
+}  // namespace cases_cli_held_to_itself
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_held_to_itself, Fixture)
 

@@ -7,7 +7,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_history {
 
 struct Fixture : Program {
   Fixture() {
@@ -28,7 +28,7 @@ struct Fixture : Program {
   }
 };
 
-}  // namespace
+}  // namespace cases_cli_history
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_history, Fixture)
 

@@ -14,7 +14,7 @@
 using namespace rigor;
 using namespace rigor::test;
 
-namespace {
+namespace cases_cli_kills {
 
 using Clock = std::chrono::steady_clock;
 using Microseconds = std::chrono::microseconds;
@@ -80,7 +80,7 @@ struct KilledProgram : DisturbedProgram {
   }
 };
 
-}  // namespace
+}  // namespace cases_cli_kills
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_kills, KilledProgram)
 

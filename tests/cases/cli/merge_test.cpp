@@ -8,7 +8,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_merge {
 
 constexpr const char* kGates = R"([[gate]]
 metric = "position_error"
@@ -41,7 +41,7 @@ struct Parts : Program {
   }
 };
 
-}  // namespace
+}  // namespace cases_cli_merge
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_merge, Parts)
 

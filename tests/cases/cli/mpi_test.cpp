@@ -7,7 +7,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_mpi {
 
 constexpr const char* kGate = R"([[gate]]
 metric = "position_error"
@@ -51,7 +51,7 @@ std::string wait_for_progress(const std::string& out) {
          "/.rigor-partial/journals/sweep.journal 2>/dev/null || echo 0)\" -gt 2000 ] && break; sleep 0.05; done; ";
 }
 
-}  // namespace
+}  // namespace cases_cli_mpi
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_mpi, Ranks)
 

@@ -7,7 +7,7 @@
 
 using namespace rigor;
 
-namespace {
+namespace cases_cli_plugin_program {
 
 constexpr const char* kGate = R"([[gate]]
 metric = "position_error"
@@ -37,7 +37,7 @@ struct Fixture : Program {
   nlohmann::json cells() const { return nlohmann::json::parse(content("out/results.json")).at("cells"); }
 };
 
-}  // namespace
+}  // namespace cases_cli_plugin_program
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_plugin_program, Fixture)
 

@@ -1,4 +1,6 @@
 // Each command line that the program prints is run as it stands, by a shell.
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 #include <regex>
@@ -8,7 +10,7 @@
 
 using namespace rigor;
 
-namespace {
+namespace cases_cli_printed_commands {
 
 const std::string kPlugin = "python3 " RIGOR_SOURCE_DIR "/adapters/plugin/examples/toy.py";
 
@@ -34,10 +36,10 @@ struct Pasting : Program {
 
 // The thrown stone with a gate that no semi-implicit engine keeps.
 std::string failing_case() {
-  return std::string(kThrown) + "[[gate]]\nmetric = \"position_error\"\nmax = 1e-9\nbecause = \"a test\"\n";
+  return fmt::format("{}[[gate]]\nmetric = \"position_error\"\nmax = 1e-9\nbecause = \"a test\"\n", kThrown);
 }
 
-}  // namespace
+}  // namespace cases_cli_printed_commands
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_printed_commands, Pasting)
 

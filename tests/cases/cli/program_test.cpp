@@ -7,7 +7,7 @@
 using namespace rigor;
 using namespace rigor::test;
 
-namespace {
+namespace cases_cli_program {
 
 // The last number of a CSV row's n-th column from the end, 0 the last.
 double from_the_end(const std::string& row, int n) {
@@ -16,7 +16,7 @@ double from_the_end(const std::string& row, int n) {
   return std::strtod(row.c_str() + row.rfind(',', end - 1) + 1, nullptr);
 }
 
-}  // namespace
+}  // namespace cases_cli_program
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_program, SuiteProgram)
 

@@ -12,6 +12,8 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_cli_progress)
 using Json = nlohmann::json;
 
 namespace {
@@ -28,8 +30,6 @@ struct Quick : Program {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_cli_progress)
 
 BOOST_AUTO_TEST_CASE(durations_are_rounded_and_ranges_never_promise_too_little) {
   BOOST_TEST(duration_text(0.4) == "0 s");

@@ -7,7 +7,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_repeat {
 
 struct RepeatFixture : Program {
   RepeatFixture() { folder.write("cube.toml", kSprungCube); }
@@ -15,7 +15,7 @@ struct RepeatFixture : Program {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-}  // namespace
+}  // namespace cases_cli_repeat
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_repeat, RepeatFixture)
 

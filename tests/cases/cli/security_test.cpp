@@ -9,7 +9,7 @@
 using namespace rigor;
 namespace fs = std::filesystem;
 
-namespace {
+namespace cases_cli_security {
 
 const std::string kWayUp = "../../planted";
 const std::string kMarkup = "\"><img src=x onerror=alert(1)></script><script>alert(2)</script>";
@@ -50,7 +50,7 @@ std::string plugin_named(const std::string& name) {
          name + "\"}'\n    print(info if '\"info\"' in line else answer, flush=True)\n";
 }
 
-}  // namespace
+}  // namespace cases_cli_security
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_security, Fixture)
 

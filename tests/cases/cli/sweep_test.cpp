@@ -11,7 +11,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_sweep {
 
 struct Fixture : Program {
   Fixture() { folder.write("suite/springs/spring.toml", kSprungCube); }
@@ -34,7 +34,7 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
   return count;
 }
 
-}  // namespace
+}  // namespace cases_cli_sweep
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_sweep, Fixture)
 

@@ -11,7 +11,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_ties {
 
 // A ball meets two others in one instant, or one of them 1 mm earlier.
 std::string three_balls(double earlier) {
@@ -90,7 +90,7 @@ struct Fixture : Program {
 constexpr const char* kOfBalls = "several pairs meet in one instant: 'cue' and 'left', 'cue' and 'right'.";
 constexpr const char* kOfPlate = "several pairs meet in one instant: 'plate' and 'post', 'plate' and 'step'.";
 
-}  // namespace
+}  // namespace cases_cli_ties
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_ties, Fixture)
 

@@ -8,7 +8,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_cli_tune {
 
 struct Fixture : Program {
   Fixture() { folder.write("stone.toml", kThrown); }
@@ -23,7 +23,7 @@ std::string found(const std::string& text, const std::string& pattern) {
   return std::regex_search(text, match, std::regex(pattern)) ? match[1].str() : "";
 }
 
-}  // namespace
+}  // namespace cases_cli_tune
 
 BOOST_FIXTURE_TEST_SUITE(cases_cli_tune, Fixture)
 

@@ -14,6 +14,8 @@
 using namespace rigor;
 using rigor::test::says;
 
+BOOST_AUTO_TEST_SUITE(cases_gates_deviations)
+
 namespace {
 
 const std::vector<EngineInfo>& infos() {
@@ -59,8 +61,6 @@ Results judged(double coarse, double fine, const std::vector<KnownDeviation>& ro
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_gates_deviations)
 
 BOOST_AUTO_TEST_CASE(a_failure_that_is_known_lets_the_gate_hold) {
   const Results grid = judged(2, 0.5, read(kRow));

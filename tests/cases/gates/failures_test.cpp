@@ -8,6 +8,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_gates_failures)
+
 namespace {
 
 // The row of a gate that fails on the first cell of "a", of 0.01 m.
@@ -23,8 +25,6 @@ Failure failure_of(const Gate& asked, GateAnswer answer = GateAnswer::failed, bo
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_gates_failures)
 
 BOOST_AUTO_TEST_CASE(each_kind_of_gate_says_its_limit) {
   struct Row {

@@ -10,13 +10,13 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_gates_gates)
+
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_gates_gates)
 
 BOOST_AUTO_TEST_CASE(a_limit_is_held_against_every_cell_it_selects) {
   GatedGrid run;  // a: .01 .0025; b: .1 .025

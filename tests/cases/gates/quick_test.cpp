@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_gates_quick)
+
 namespace {
 
 // Ten seconds of one body: quick at 1/10 and no longer so at a thousandth of what is allowed.
@@ -25,8 +27,6 @@ Gate gate(const std::string& metric) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_gates_quick)
 
 BOOST_AUTO_TEST_CASE(a_gate_keeps_its_quick_steps_and_an_order_needs_all_of_them) {
   Case definition = long_case();

@@ -19,7 +19,7 @@
 
 using namespace rigor;
 
-namespace {
+namespace cases_gates_regression {
 
 // The sample's grid: position_error is .25 in both cells of "good"; of "wild" one blew up and one crashed.
 struct Fixture : Folder {
@@ -45,7 +45,7 @@ struct Fixture : Folder {
 const std::string kLine =
     "{\"case\":\"family/case\",\"run\":\"good\",\"dt\":\"1/10\",\"position_error\":0.25,\"energy_drift\":0.5}\n";
 
-}  // namespace
+}  // namespace cases_gates_regression
 
 BOOST_FIXTURE_TEST_SUITE(cases_gates_regression, Fixture)
 

@@ -9,6 +9,8 @@
 using namespace rigor;
 using rigor::test::body;
 
+BOOST_AUTO_TEST_SUITE(cases_gates_single_precision)
+
 namespace {
 
 // Two bodies that move, and one far away that does not. With 4 J, 2 kg can reach 2 m/s, and 0.5 kg m² can reach 4
@@ -33,8 +35,6 @@ CaseResult thrown(double largest_kinetic_energy) {
 const double kRelative = 8 * std::ldexp(1, -24) * std::sqrt(30);  // eight roundings in each of thirty steps
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_gates_single_precision)
 
 BOOST_AUTO_TEST_CASE(each_unit_has_the_allowance_that_its_sizes_make) {
   const double mass = 2 + 8, inertia = 4 + 0.5, time = 3, speed = 2, spin = 4, place = 5 + speed * time;

@@ -13,7 +13,7 @@
 using namespace rigor;
 using namespace rigor::test;
 
-namespace {
+namespace cases_import_bad_input {
 
 struct Bad {
   std::string name, text, says;
@@ -148,7 +148,7 @@ bool is_built(const std::string& engine) {
   return std::none_of(missing.begin(), missing.end(), [&](const MissingEngine& one) { return one.name == engine; });
 }
 
-}  // namespace
+}  // namespace cases_import_bad_input
 
 BOOST_FIXTURE_TEST_SUITE(cases_import_bad_input, Program)
 

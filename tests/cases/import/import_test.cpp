@@ -10,6 +10,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_import_import)
+
 namespace {
 
 const std::string kModels = RIGOR_SOURCE_DIR "/tests/cases/import/models/";
@@ -35,8 +37,6 @@ const std::string kBoxInertial =
     "<izz>0.05333333333333333</izz></inertia></inertial>";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_import_import)
 
 // The link's frame stands at the joint, turned by a quarter about y: its x points down, its z along W's x. The mass is
 // half a metre along the link's x, and its inertia's axes are turned by a quarter about the link's z.

@@ -7,6 +7,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_import_turned_models)
+
 namespace {
 
 std::string sdf_model(const std::string& inside) {
@@ -52,8 +54,6 @@ bool may_touch(const Scene& scene, const std::string& a, const std::string& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_import_turned_models)
 
 // The link, its inertia and its box each have axes of their own.
 BOOST_AUTO_TEST_CASE(a_shape_in_other_axes_stands_where_the_file_has_it) {

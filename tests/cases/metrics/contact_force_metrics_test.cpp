@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_contact_force_metrics)
+
 namespace {
 
 constexpr double kDt = 0.01, kWeight = 20;  // s, N
@@ -55,8 +57,6 @@ double value_of(const std::string& metric, const Scene& scene, const Trajectory&
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_contact_force_metrics)
 
 BOOST_AUTO_TEST_CASE(a_weight_that_is_carried_leaves_nothing) {
   const Scene scene = ball_on_ground(0.5);

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_contact_metrics)
+
 namespace {
 
 constexpr double kDt = 0.01;
@@ -56,8 +58,6 @@ std::string reason_of(const std::string& metric, const JudgedRun& run) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_contact_metrics)
 
 BOOST_AUTO_TEST_CASE(penetration_is_the_deepest_overlap_and_names_its_body) {
   const Scene scene = ball_on_ground(1, 0, 0);

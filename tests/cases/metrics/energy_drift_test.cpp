@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_energy_drift)
+
 namespace {
 
 Trajectory run_of(const Scene& scene, const std::string& method, double dt, double duration) {
@@ -27,8 +29,6 @@ struct Coasting {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_energy_drift)
 
 BOOST_AUTO_TEST_CASE(a_known_change_of_speed_is_a_known_drift) {
   const Coasting made({10, 9, 11, 10});

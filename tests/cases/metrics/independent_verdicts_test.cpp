@@ -19,6 +19,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_independent_verdicts)
+
 namespace {
 
 constexpr double kDrifts = 0.01, kGains = 0.005;         // shares of the energy, as verdict.h states them
@@ -302,8 +304,6 @@ void judge_folder(const std::string& folder, const std::string& family, Tally& t
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_independent_verdicts)
 
 // One case of each kind of each family, and every kind of engine.
 BOOST_AUTO_TEST_CASE(each_verdict_follows_from_the_poses_alone) {

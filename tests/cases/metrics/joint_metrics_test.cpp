@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_joint_metrics)
+
 namespace {
 
 // A rod of 1 m and 1 kg on a hinge about z at its end, let go level.
@@ -27,8 +29,6 @@ double value_of(const std::string& metric, const JudgedRun& run) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_joint_metrics)
 
 BOOST_AUTO_TEST_CASE(a_scene_without_joints_has_no_value) {
   const Scene scene = test::fixed_spring();

@@ -4,6 +4,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_momentum_drift)
+
 namespace {
 
 Scene two_bodies_and_a_spring() {
@@ -16,8 +18,6 @@ Scene two_bodies_and_a_spring() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_momentum_drift)
 
 BOOST_AUTO_TEST_CASE(the_law_holds_for_the_reference_of_bodies_that_nothing_holds) {
   Scene scene = two_bodies_and_a_spring();

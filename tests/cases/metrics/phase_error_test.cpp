@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_phase_error)
+
 namespace {
 
 using Motion = std::function<BodyState(double t)>;
@@ -78,8 +80,6 @@ double shifts_tried(const Motion& motion, double lag, double dt, int steps, std:
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_phase_error)
 
 BOOST_AUTO_TEST_CASE(a_run_that_is_late_lags_and_one_that_is_early_leads) {
   struct Row {

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_stability)
+
 namespace {
 
 const Engine& core() { return find_engine(engines(), "core"); }
@@ -21,8 +23,6 @@ Stability verdict_on(const Scene& scene, const std::string& method, double dt, d
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_stability)
 
 BOOST_AUTO_TEST_CASE(explicit_euler_blows_the_springs_up_when_it_is_known_to) {
   struct Row {

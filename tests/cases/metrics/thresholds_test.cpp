@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_thresholds)
+
 namespace {
 
 // A bead on a slider, without anything in play: a change of its energy is relative to 1 J.
@@ -64,8 +66,6 @@ Stability verdict_of_places(const Scene& scene, std::size_t body, const std::vec
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_thresholds)
 
 // 2 kg at 1 m/s have 1 J.
 BOOST_AUTO_TEST_CASE(a_drift_of_just_a_hundredth_and_a_gain_of_just_half_of_that_are_none) {

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_ties)
+
 namespace {
 
 // Bodies at these places at 0, 1, 2, ... s; those that are not named stay where the scene has them.
@@ -44,8 +46,6 @@ Scene two_boxes() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_ties)
 
 BOOST_AUTO_TEST_CASE(of_two_that_creep_or_sink_as_far_the_first_is_named) {
   const Scene scene = two_boxes();

@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_trajectory_errors)
+
 namespace {
 
 // Two bodies that the truth has at rest, sampled at 0, 1, 2, 3 s; the truth is good up to 2 s.
@@ -31,8 +33,6 @@ struct AtRest {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_trajectory_errors)
 
 BOOST_AUTO_TEST_CASE(the_position_error_is_the_largest_distance_within_the_truths_horizon) {
   AtRest made;

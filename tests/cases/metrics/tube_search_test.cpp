@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_tube_search)
+
 namespace {
 
 using Motion = std::function<BodyState(double t)>;
@@ -50,8 +52,6 @@ Found tube_of(const std::vector<Motion>& truth_motions, const std::vector<Motion
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_tube_search)
 
 // A truth that says that it has a speed, and stays: what may be gained by it is known to the last digit. At a tolerance
 // of 1 mm a second 0.5 s are half of one, twice that is allowed for: what is 2 tolerances off may be 1 off.

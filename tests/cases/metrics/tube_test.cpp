@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_tube)
+
 namespace {
 
 BodyState at_place(double x, double y = 0, double turned = 0) {
@@ -28,8 +30,6 @@ Measurement tube_of(const std::function<BodyState(double)>& run_motion, double g
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_tube)
 
 BOOST_AUTO_TEST_CASE(a_run_beside_the_truth_is_inside_up_to_a_hundredth_of_its_extent) {
   BOOST_TEST(tube_of([](double t) { return at_place(10 * t, 0.0999); }).value == 1);

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_verdict)
+
 namespace {
 
 constexpr double kDt = 1.0 / 30;
@@ -82,8 +84,6 @@ Stability verdict_of_engine(const std::string& name, const Scene& scene, double 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_verdict)
 
 // Each of these was called stable while its own motion was what a gain was measured by.
 BOOST_AUTO_TEST_CASE(what_engines_do_to_contact_at_a_thirtieth_is_told) {

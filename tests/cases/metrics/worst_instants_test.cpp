@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_worst_instants)
+
 namespace {
 
 // Three free bodies at rest, without forces, at 0, 1, 2, 3 s; the truth is good up to 2 s, and the run is its own twin.
@@ -69,8 +71,6 @@ Trajectory ball_run(const Scene& scene, const std::function<Vec3(double)>& place
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_worst_instants)
 
 BOOST_AUTO_TEST_CASE(places_and_turns_name_the_body_and_the_coordinate_furthest_off) {
   Resting made;

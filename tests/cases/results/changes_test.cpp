@@ -14,6 +14,8 @@
 using namespace rigor;
 using rigor::test::says;
 
+BOOST_AUTO_TEST_SUITE(cases_results_changes)
+
 namespace {
 
 Baseline by_way_of_a_baseline(const Baseline& baseline) {
@@ -32,8 +34,6 @@ void both_ways(const Results& before, const Results& after, const Check& check) 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_results_changes)
 
 BOOST_AUTO_TEST_CASE(nothing_has_changed_from_a_result_to_itself) {
   both_ways(gated_results(), gated_results(), [](const Changes& changes) {

@@ -13,7 +13,7 @@
 using namespace rigor;
 using rigor::test::says;
 
-namespace {
+namespace cases_results_history {
 
 const CellKey kGood = {"family/case", "good", "1/10"};
 
@@ -27,7 +27,7 @@ struct Fixture : Folder {
   std::string history() const { return (path / "history.jsonl").string(); }
 };
 
-}  // namespace
+}  // namespace cases_results_history
 
 BOOST_FIXTURE_TEST_SUITE(cases_results_history, Fixture)
 

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_results_observed_order)
+
 namespace {
 
 // c dt^p at a run's steps.
@@ -23,8 +25,6 @@ double order_of(const Results& results, std::size_t run = 0) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_results_observed_order)
 
 BOOST_AUTO_TEST_CASE(the_order_is_the_power_of_dt_at_any_number_of_steps) {
   for (const double p : {1.0, 2.0, 4.0}) {

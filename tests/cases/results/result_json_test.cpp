@@ -9,13 +9,13 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_results_result_json)
+
 namespace {
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_results_result_json)
 
 BOOST_AUTO_TEST_CASE(every_number_comes_back_with_its_bits) {
   using Limits = std::numeric_limits<double>;

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_results_results)
+
 namespace {
 
 // At 0, 0.25, ... s.
@@ -25,8 +27,6 @@ MetricValue condensed_series(const std::vector<double>& series) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_results_results)
 
 // The fifth sample is at 1 s, and counts.
 BOOST_AUTO_TEST_CASE(of_a_series_the_largest_of_its_first_second_is_kept) {

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_results_spread)
+
 namespace {
 
 // Body 0 rests; body 1 moves along x at `speed` and turns about z at `spin`.
@@ -26,8 +28,6 @@ Spread spread_of(const Trajectory& a, const Trajectory& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_results_spread)
 
 BOOST_AUTO_TEST_CASE(the_spread_is_the_largest_distance_and_angle_with_their_body_and_time) {
   const Spread spread = spread_of(moving(1, 0.25, 8), moving(1.5, -0.5, 8));

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_case_journal)
+
 namespace {
 
 // An engine of this program, and one from outside.
@@ -50,8 +52,6 @@ Journal::Record stable(std::size_t run) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_case_journal)
 
 BOOST_AUTO_TEST_CASE(each_share_of_each_case_has_a_file_of_its_own) {
   const EngineTable table = engines_inside_and_outside();

@@ -14,6 +14,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_case_process)
+
 namespace {
 
 void spin() {
@@ -113,8 +115,6 @@ GridOptions quick(bool with_stable_steps, double limit = 20) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_case_process)
 
 // However short the run is; but where it is longer, as long as the run.
 BOOST_AUTO_TEST_CASE(a_step_has_to_hold_for_thirty_seconds_or_the_run) {

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_ensemble)
+
 namespace {
 
 Body fixed_post(double x, double z) {
@@ -45,8 +47,6 @@ Case falling_ball(double restitution) {
 RunName named(const std::string& text) { return parse_run_name(text, infos_of(engines())); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_ensemble)
 
 BOOST_AUTO_TEST_CASE(starts_differ_by_a_millionth_and_by_their_seed_alone) {
   const Scene scene = falling_ball(0.7).scene;

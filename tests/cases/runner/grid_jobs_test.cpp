@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_grid_jobs)
+
 namespace {
 
 class SayingExecutor : public Executor {
@@ -82,8 +84,6 @@ JobEnd ended(Ending how, const std::string& text = "") {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_grid_jobs)
 
 // Steps times bodies: 15, 15 of twice as many bodies, 30, and 3 that are left of 150 where one of two steps is not
 // supported.

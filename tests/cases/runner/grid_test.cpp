@@ -23,6 +23,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_grid)
+
 namespace {
 
 void sit_still(double&) {}
@@ -89,8 +91,6 @@ Results run(const std::vector<Case>& cases, const EngineTable& table, const Grid
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_grid)
 
 BOOST_AUTO_TEST_CASE(a_broken_engine_costs_its_own_cells_and_says_how) {
   const EngineTable table = faulty_engines();

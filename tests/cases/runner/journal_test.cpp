@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_journal)
+
 namespace {
 
 std::string content(const std::string& file) {
@@ -20,8 +22,6 @@ std::string content(const std::string& file) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_journal)
 
 BOOST_AUTO_TEST_CASE(what_was_added_is_found_again_by_the_same_plan_alone) {
   const Folder folder;

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_late_refusal)
+
 namespace {
 
 // One case, whose only gate the engine cannot hold, beside an engine that holds it.
@@ -30,8 +32,6 @@ Results run_with(const FaultyEngine::Fault& fault) {
 void refuse() { throw EngineFailure(FailureKind::unsupported, "it says that it cannot"); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_late_refusal)
 
 BOOST_AUTO_TEST_CASE(an_engine_may_refuse_a_step_before_it_has_taken_one) {
   const Results grid = run_with([](double&) { refuse(); });

@@ -14,6 +14,8 @@
 #include "tests/folder.h"
 
 using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_runner_output_folder)
 namespace fs = std::filesystem;
 
 namespace {
@@ -26,8 +28,6 @@ std::string content(const fs::path& file) {
 std::size_t entries(const fs::path& folder) { return std::distance(fs::directory_iterator(folder), {}); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_output_folder)
 
 BOOST_AUTO_TEST_CASE(old_outputs_stay_until_the_new_are_published) {
   const Folder place;

@@ -15,6 +15,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_part)
+
 namespace {
 
 EngineTable two_engines() {
@@ -73,8 +75,6 @@ auto is_input_error(const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_part)
 
 BOOST_AUTO_TEST_CASE(a_part_is_read_as_it_was_written) {
   const Folder folder;

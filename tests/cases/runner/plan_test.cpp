@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_plan)
+
 namespace {
 
 EngineTable engines_named(const std::vector<std::string>& names) {
@@ -39,8 +41,6 @@ Gate gate_on(const std::string& engine) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_plan)
 
 // Of a run of 0.5 s: a step may be all of it, but for a rounding, and there may be 1e9 of them.
 BOOST_AUTO_TEST_CASE(the_longest_and_the_shortest_step_of_a_run) {

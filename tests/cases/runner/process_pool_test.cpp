@@ -17,6 +17,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_process_pool)
+
 namespace {
 
 struct Outcome {
@@ -38,8 +40,6 @@ Outcome outcome_of(const std::function<void(const Channel&)>& work, double limit
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_process_pool)
 
 BOOST_AUTO_TEST_CASE(a_message_arrives_whole_whatever_its_size_and_content) {
   for (const std::size_t size : {0, 1, 65536, 5'000'000}) {

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_remote_run)
+
 namespace {
 
 struct Expected {
@@ -77,8 +79,6 @@ test::Script resting() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_remote_run)
 
 BOOST_AUTO_TEST_CASE(a_world_elsewhere_knows_what_steps_will_come) {
   const Scene scene = test::tumbling_body();

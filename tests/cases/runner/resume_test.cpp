@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_resume)
+
 namespace {
 
 // One from outside that dies while `is_broken`, and one that never does.
@@ -34,8 +36,6 @@ std::map<std::string, Status> ends_of(const EngineTable& table, const std::strin
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_resume)
 
 BOOST_AUTO_TEST_CASE(what_died_outside_is_tried_again) {
   const Folder folder;

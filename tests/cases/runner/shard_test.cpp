@@ -14,6 +14,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_shard)
+
 namespace {
 
 // Some cells of `count` cases are as long as a thousand others.
@@ -39,8 +41,6 @@ Results planned(int count, bool with_stable_steps) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_shard)
 
 BOOST_AUTO_TEST_CASE(a_shard_is_two_whole_numbers_of_which_the_first_is_at_most_the_second) {
   BOOST_TEST((parse_shard("1/1", "--shard") == Shard{1, 1}));

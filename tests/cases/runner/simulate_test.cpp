@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_simulate)
+
 namespace {
 
 // A world that notes the steps of which what its joints carry is to be reported.
@@ -48,8 +50,6 @@ class SparedEngine : public test::ScriptedEngine {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_simulate)
 
 BOOST_AUTO_TEST_CASE(as_many_steps_are_taken_as_fit) {
   struct Row {

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_stable_step_search)
+
 namespace {
 
 struct Tried {
@@ -90,8 +92,6 @@ StableStep found_by(const FussyEngine& engine, const Scene& scene, double horizo
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_stable_step_search)
 
 BOOST_AUTO_TEST_CASE(a_limit_is_found_from_below_to_a_hundredth_and_to_five_where_steps_are_tried_far_apart) {
   struct Row {

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_stable_step)
+
 namespace {
 const Engine& core() { return find_engine(engines(), "core"); }
 
@@ -43,8 +45,6 @@ class BandEngine : public test::ScriptedEngine {
   double from_, to_;
 };
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_stable_step)
 
 BOOST_AUTO_TEST_CASE(the_largest_stable_step_of_an_oscillator_is_the_known_one) {
   // Through the centre of mass, w² = k/m = 400: semi-implicit Euler holds while w dt < 2, so to 0.1 s. Just below it

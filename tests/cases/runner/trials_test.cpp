@@ -13,6 +13,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_trials)
+
 namespace {
 
 Results results_of(const std::string& path, const std::string& run = "core:velocity-verlet") {
@@ -26,8 +28,6 @@ Results results_of(const std::string& path, const std::string& run = "core:veloc
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_trials)
 
 BOOST_AUTO_TEST_CASE(each_trial_runs_from_its_own_start_and_the_mean_is_over_them) {
   Folder folder;

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_twin_length)
+
 namespace {
 
 constexpr long kSteps = 100;
@@ -64,8 +66,6 @@ Found twin_that_drifts(double drift, TwinLength length, double place = 1) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_twin_length)
 
 // 1e-6 of a metre and a radian is far beyond what a comparison allows: one step of each of the four worlds shows it.
 BOOST_AUTO_TEST_CASE(a_twin_is_stepped_no_further_than_it_can_be_compared) {

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_runner_twin_run)
+
 namespace {
 
 // A twin whose bodies move as its script says.
@@ -26,8 +28,6 @@ RunName the_run() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_runner_twin_run)
 
 BOOST_AUTO_TEST_CASE(only_a_scheme_that_is_not_the_cores_own_has_a_twin_and_only_where_nothing_can_touch) {
   const auto infos = infos_of(engines());

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_suite_contact_suite)
+
 namespace {
 
 std::vector<Case> contact_cases() {
@@ -29,8 +31,6 @@ int solver_warnings_of(const std::string& run_name, const std::string& id, doubl
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_suite_contact_suite)
 
 BOOST_AUTO_TEST_CASE(each_contact_case_has_a_source_and_gates) { test::check_sources_and_gates(contact_cases()); }
 

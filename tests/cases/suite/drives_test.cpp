@@ -15,6 +15,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_suite_drives)
+
 namespace {
 
 struct Motion {
@@ -102,8 +104,6 @@ Motion off(const Scene& scene, const Motion& wanted, BodyColumns bodies) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_suite_drives)
 
 BOOST_AUTO_TEST_CASE(the_reference_meets_each_closed_form_within_its_error) {
   for (const auto& form : kForms) {

@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_suite_joint_suite)
+
 namespace {
 
 std::vector<Case> jointed_cases() {
@@ -12,8 +14,6 @@ std::vector<Case> jointed_cases() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_suite_joint_suite)
 
 BOOST_AUTO_TEST_CASE(each_jointed_case_has_a_source_and_gates) { test::check_sources_and_gates(jointed_cases()); }
 

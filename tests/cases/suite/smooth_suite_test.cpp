@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_suite_smooth_suite)
+
 namespace {
 
 // Nothing in it happens at an instant: neither contacts nor joints.
@@ -20,8 +22,6 @@ bool is_smooth(const Case& c) {
 std::vector<Case> smooth_cases() { return test::suite_cases(is_smooth); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_suite_smooth_suite)
 
 BOOST_AUTO_TEST_CASE(each_smooth_case_has_a_source_and_gates) { test::check_sources_and_gates(smooth_cases()); }
 

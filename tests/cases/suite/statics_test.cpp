@@ -15,6 +15,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_suite_statics)
+
 namespace {
 
 constexpr double kTouching = 1e-6;  // m: scenes are written down to 1e-12
@@ -198,8 +200,6 @@ const Pile kPiles[] = {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_suite_statics)
 
 BOOST_DATA_TEST_CASE(what_has_to_stand_is_balanced_by_forces_within_the_friction_cones, kPiles, pile) {
   const Case c = select_cases({pile.id}, default_suite_dir(), test::words()).at(0);

@@ -13,6 +13,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_suite_transmissions)
+
 namespace {
 
 const struct {
@@ -39,8 +41,6 @@ double error_of(const Scene& scene, const Truth& truth, const std::string& metho
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_suite_transmissions)
 
 BOOST_AUTO_TEST_CASE(the_best_method_meets_each_closed_form_to_1e_minus_9) {
   for (const auto& form : kForms) {

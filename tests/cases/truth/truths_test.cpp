@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_truths)
+
 namespace {
 
 // An error that doubles each second from 1e-9.
@@ -15,8 +17,6 @@ class Doubling : public Truth {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_truths)
 
 BOOST_AUTO_TEST_CASE(the_table_is_alphabetical_and_each_row_says_what_it_is) {
   for (std::size_t i = 0; i < truths().size(); ++i) {

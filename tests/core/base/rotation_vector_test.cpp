@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_base_rotation_vector)
+
 namespace {
 
 constexpr double kHalfTurn = 3.14159265358979323846;
@@ -25,8 +27,6 @@ Mat3 summed_jacobian(const Vec3& phi) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_base_rotation_vector)
 
 // Rounding of a few operations on numbers of up to 2 pi.
 constexpr double kRounding = 1e-14;

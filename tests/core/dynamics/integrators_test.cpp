@@ -15,6 +15,8 @@
 
 using namespace rigor;
 using test::Method;
+
+BOOST_AUTO_TEST_SUITE(core_dynamics_integrators)
 using Run = test::MethodRun;
 
 namespace {
@@ -64,8 +66,6 @@ double observed_order(const Scene& scene, const BodyTable& truth, const Method& 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_integrators)
 
 BOOST_AUTO_TEST_CASE(rows_are_alphabetical_and_unique) {
   const auto by_name = [](const Integrator& a, const Integrator& b) { return a.name < b.name; };

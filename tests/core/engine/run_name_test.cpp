@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_engine_run_name)
+
 namespace {
 
 std::vector<EngineInfo> two_engines() {
@@ -33,8 +35,6 @@ std::string error_of(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_engine_run_name)
 
 BOOST_AUTO_TEST_CASE(a_full_name_is_taken_apart) {
   const RunName run = parse_run_name("ode:quickstep,iterations=50@stock", two_engines());

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_joint_loops)
+
 namespace {
 
 // Balls between these pairs of bodies; body `fixed` stands.
@@ -20,8 +22,6 @@ Scene linked(int bodies, const std::vector<std::pair<int, int>>& pairs, int fixe
 using Flags = std::vector<bool>;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_joint_loops)
 
 BOOST_AUTO_TEST_CASE(chains_and_trees_have_no_loop) {
   BOOST_TEST(joints_on_loops(linked(3, {{kWorld, 0}, {0, 1}, {1, 2}})) == (Flags{false, false, false}));

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_joint_traits)
+
 namespace {
 
 // Bodies in a row, each on the one before, the first on the world.
@@ -25,8 +27,6 @@ std::string traits(const Scene& scene) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_joint_traits)
 
 BOOST_AUTO_TEST_CASE(a_chain_has_no_loop_and_one_held_at_both_ends_has) {
   Scene scene = chain(3);

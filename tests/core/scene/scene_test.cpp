@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_scene)
+
 namespace {
 
 bool inside(const Shape& shape, const Vec3& p) {
@@ -25,8 +27,6 @@ Features features_of(const Scene& scene) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_scene)
 
 // A second derivation of each inertia: the sum over the cells of a lattice whose centres lie inside. With 120 cells per
 // side a tenth of the cells are at the surface, and some are misassigned by chance: an error of a few in a thousand.

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_shapes)
+
 namespace {
 
 bool is_inside(const Shape& shape, const Vec3& p) {
@@ -81,8 +83,6 @@ std::string mesh_refusal(const std::string& text, const std::string& name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_shapes)
 
 // A second derivation: means over points spread evenly through a cube (Roberts, The unreasonable effectiveness of
 // quasirandom sequences, 2018). Of a million points the means are off by up to two in a thousand.

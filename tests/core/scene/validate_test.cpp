@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_validate)
+
 namespace {
 
 // A post and two boxes, a spring, a hinge with a motor, a contact and a force.
@@ -129,8 +131,6 @@ const std::vector<Row> kSpoilt = {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_validate)
 
 BOOST_AUTO_TEST_CASE(each_thing_that_no_scene_can_have_is_named) {
   BOOST_TEST(said_of(sound()) == "");

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kMode = "mode";  // Claim::part of the stiffest mode
 
 // A linear oscillator that a message names as the reason.
-struct Suspect {
+struct BlowUpSuspect {
   std::string part;  // kMode, or an element's name
   ForceElement::Kind kind = ForceElement::Kind::spring;
   Oscillator oscillator;
@@ -59,7 +59,7 @@ class BlowUps {
     motions_ = SmallMotions::of(result_.definition.scene);
     std::vector<BlownUpRun> by_damper, by_spring;
     std::vector<const Cell*> by_orientation, others;
-    const std::optional<Suspect> damper = damper_suspect(), spring = spring_suspect();
+    const std::optional<BlowUpSuspect> damper = damper_suspect(), spring = spring_suspect();
     for (const Cell* cell : blown) {
       const auto damped = damper ? growth_that_explains(*damper, *cell) : std::nullopt;
       const auto sprung = spring && !damped ? growth_that_explains(*spring, *cell) : std::nullopt;
@@ -79,22 +79,22 @@ class BlowUps {
 
  private:
   // The element with the highest damping rate, where its damper limits the step rather than its spring.
-  std::optional<Suspect> damper_suspect() const {
+  std::optional<BlowUpSuspect> damper_suspect() const {
     const ForceElement* most = motions_ ? motions_->most_damped() : nullptr;
     if (!most) return {};
     const Oscillator alone = SmallMotions::alone(*most);
     const double g = alone.rate * dt_.seconds, k = std::pow(alone.frequency * dt_.seconds, 2);
     if (!(g > 2) || 2 * g < k) return {};
-    return Suspect{most->name, most->kind, alone};
+    return BlowUpSuspect{most->name, most->kind, alone};
   }
 
-  std::optional<Suspect> spring_suspect() const {
+  std::optional<BlowUpSuspect> spring_suspect() const {
     if (!motions_ || !(motions_->stiffest().frequency > 0)) return {};
     const auto& elements = motions_->elements();
     const auto stiffest = std::max_element(elements.begin(), elements.end(), [](const auto& a, const auto& b) {
       return a.stiffness / a.inertia < b.stiffness / b.inertia;
     });
-    return Suspect{kMode, stiffest->kind, motions_->stiffest()};
+    return BlowUpSuspect{kMode, stiffest->kind, motions_->stiffest()};
   }
 
   // The run of the core that is, or repeats, the cell's run.
@@ -117,7 +117,7 @@ class BlowUps {
 
   // Without a twin a scheme is known by its stagger alone, and whether it takes dampers explicitly is not known. It
   // does not if it was found stable at a step at which an explicit one would be unstable.
-  std::optional<double> growth_of(const Suspect& suspect, const Cell& cell) const {
+  std::optional<double> growth_of(const BlowUpSuspect& suspect, const Cell& cell) const {
     constexpr double kPrecision = 1.5;  // of a bound for small motions, beside motions that are not small
     const std::string core = core_run(cell);
     if (!core.empty()) return energy_growth(core, suspect.kind, suspect.oscillator, dt_.seconds);
@@ -129,7 +129,7 @@ class BlowUps {
   }
 
   // The growth of the oscillator's energy in one step, if it suffices for a blow-up in the time that it took.
-  std::optional<double> growth_that_explains(const Suspect& suspect, const Cell& cell) const {
+  std::optional<double> growth_that_explains(const BlowUpSuspect& suspect, const Cell& cell) const {
     constexpr double kBlownUp = 10;  // times the energy in play, see metrics/stability.h
     const auto growth = growth_of(suspect, cell);
     const double steps = std::max(1.0, cell.stability.time / dt_.seconds);
@@ -157,7 +157,7 @@ class BlowUps {
   }
 
   // "5.3 (core:explicit-euler), 25 (bullet, dart)": runs with the same growth share its number.
-  std::string growths(Claims& claims, const Suspect& suspect, const std::vector<BlownUpRun>& runs) const {
+  std::string growths(Claims& claims, const BlowUpSuspect& suspect, const std::vector<BlownUpRun>& runs) const {
     std::vector<std::pair<std::string, std::string>> said;  // the number, and whose it is
     for (const BlownUpRun& run : runs) {
       Claim claim = of_cell(*run.cell, "energy growth", *run.growth);
@@ -174,7 +174,7 @@ class BlowUps {
     return text;
   }
 
-  void tell_damper(const Suspect& damper, const std::vector<BlownUpRun>& runs) {
+  void tell_damper(const BlowUpSuspect& damper, const std::vector<BlownUpRun>& runs) {
     const auto& elements = motions_->elements();
     const auto element = std::find_if(elements.begin(), elements.end(),
                                       [&](const ForceElement& one) { return one.name == damper.part; });
@@ -223,7 +223,7 @@ class BlowUps {
     return fmt::format(", or a run that is stable here: {}", fmt::join(names, ", "));
   }
 
-  void tell_spring(const Suspect& spring, const std::vector<BlownUpRun>& runs) {
+  void tell_spring(const BlowUpSuspect& spring, const std::vector<BlownUpRun>& runs) {
     Claims claims;
     const double frequency = spring.oscillator.frequency;
     std::string text =

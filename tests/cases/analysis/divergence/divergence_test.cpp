@@ -13,7 +13,7 @@
 using namespace rigor;
 using namespace rigor::test;
 
-namespace {
+namespace cases_analysis_divergence_divergence {
 
 Case case_of(Scene scene, double duration) {
   Case definition;
@@ -72,7 +72,7 @@ Scene sliding_box() {
   return scene;
 }
 
-}  // namespace
+}  // namespace cases_analysis_divergence_divergence
 
 BOOST_FIXTURE_TEST_SUITE(cases_analysis_divergence_divergence, Planted)
 

@@ -9,6 +9,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_divergence_parting)
+
 namespace {
 
 void add_row(StateSeries& motion, const BodyState& state) {
@@ -37,8 +39,6 @@ std::optional<Parting> parted(const StateSeries& b, const std::string& bound, co
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_divergence_parting)
 
 BOOST_AUTO_TEST_CASE(the_first_sample_beyond_the_bound_counts) {
   const auto found = parted(drifting({0, -0.4e-3, 0}, Vec3::Zero()), "1mm");

@@ -11,6 +11,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_divergence_rebased_scene)
+
 namespace {
 
 constexpr double kStep = 1e-3;  // s
@@ -63,8 +65,6 @@ Scene driven_cart() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_divergence_rebased_scene)
 
 // Anchors that close again and renormalised orientations leave roundings, which a second amplifies little.
 BOOST_AUTO_TEST_CASE(joints_springs_drives_and_forces_go_on_from_any_state) {

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_fitting_bootstrap)
+
 namespace {
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
@@ -32,8 +34,6 @@ double mean_of(const std::vector<double>& numbers) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_fitting_bootstrap)
 
 // The interval of a mean is known: plus and minus the quantile of Student's distribution times the standard error.
 BOOST_AUTO_TEST_CASE(of_a_mean_the_interval_is_students) {

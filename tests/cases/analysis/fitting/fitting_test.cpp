@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_fitting_fitting)
+
 namespace {
 
 const std::string kFriction = "scene.contact_default.friction";
@@ -25,8 +27,6 @@ FitInput input_of(const Folder& folder, const std::vector<std::string>& vary, do
 FitResult fitted(const FitInput& input) { return fit(input, engines(), test::words()); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_fitting_fitting)
 
 BOOST_AUTO_TEST_CASE(gives_a_known_friction_back_within_its_interval) {
   Folder folder;

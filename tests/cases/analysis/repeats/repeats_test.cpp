@@ -14,6 +14,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_analysis_repeats_repeats)
+
 namespace {
 
 int worlds_alive = 0, worlds_loaded = 0;
@@ -84,8 +86,6 @@ std::string differing(const RepeatReport& report) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_analysis_repeats_repeats)
 
 BOOST_AUTO_TEST_CASE(an_engine_that_nothing_disturbs_repeats) {
   const RepeatReport report = disturbed([](const Scene&) { return 0; });

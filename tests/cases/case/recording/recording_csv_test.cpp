@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_case_recording_recording_csv)
+
 namespace {
 
 const std::string kPath = "toss.csv";
@@ -26,8 +28,6 @@ const std::string kHeader = "time,body,px,py,pz,qw,qx,qy,qz\n";
 const std::string kRow = "0,cube,0,0,0,1,0,0,0\n";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_case_recording_recording_csv)
 
 BOOST_AUTO_TEST_CASE(columns_in_any_order_among_others_and_with_gaps) {
   const std::string text =

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_built_at_rest)
+
 namespace {
 
 // Two boxes of 1 m, one on the other, on the ground; each `play` above what it stands on.
@@ -38,8 +40,6 @@ std::string why_not(const Scene& scene, const TruthSamples* truth = nullptr) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_built_at_rest)
 
 BOOST_AUTO_TEST_CASE(what_stands_free_and_touches_is_built_to_stand_and_all_else_says_why_it_is_not) {
   BOOST_TEST(why_not(stack()) == "");

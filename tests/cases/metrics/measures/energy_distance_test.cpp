@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_energy_distance)
+
 namespace {
 
 // Box and Muller, so that the numbers are the same with every library.
@@ -39,8 +41,6 @@ double mean_distance(double mean, double deviation) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_energy_distance)
 
 BOOST_AUTO_TEST_CASE(is_what_the_definition_says) {
   const Points x = {{0, 0}, {3, 4}}, y = {{0, 0}, {0, 1}, {6, 8}};

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_energy_in_play)
+
 namespace {
 
 const auto kClose = boost::test_tools::tolerance(1e-9);
@@ -19,8 +21,6 @@ Scene ball_over(double height, const Body& support) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_energy_in_play)
 
 BOOST_AUTO_TEST_CASE(a_body_over_a_plane_has_its_fall_and_its_start_in_play_however_long_the_run) {
   Scene scene = ball_over(3, test::plane());

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_energy_series)
+
 namespace {
 
 Scene ball_and_ground(ContactLaw law) {
@@ -46,8 +48,6 @@ TruthSamples truth_of(const Trajectory& run, std::size_t good) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_energy_series)
 
 BOOST_AUTO_TEST_CASE(each_thing_that_may_take_or_give_energy_is_known) {
   struct Row {

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_shape_gap)
+
 namespace {
 
 std::mt19937 random_numbers(7);
@@ -40,8 +42,6 @@ double distance_by_projections(const Shape& a, const BodyPose& pose_a, const Sha
 const Shape kShapes[] = {Sphere{0.4}, Box{{0.6, 0.9, 1.3}}, Capsule{0.3, 1.1}};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_shape_gap)
 
 BOOST_AUTO_TEST_CASE(bodies_apart_are_as_far_as_alternating_projections_say) {
   int checked = 0;

@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_synchronised)
+
 namespace {
 
 constexpr double kDt = 0.02;  // s
@@ -59,8 +61,6 @@ Motion semi_implicit(double place, double speed, const Acceleration& acceleratio
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_synchronised)
 
 BOOST_AUTO_TEST_CASE(what_lags_by_half_a_step_gains_what_acts_in_it) {
   const Scene scene = bead(false);

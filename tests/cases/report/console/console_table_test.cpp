@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_console_console_table)
+
 namespace {
 
 std::string line_with(const std::string& text, const std::string& start) {
@@ -23,8 +25,6 @@ std::string line_with(const std::string& text, const std::string& start) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_console_console_table)
 
 BOOST_AUTO_TEST_CASE(a_row_shows_errors_signed_drift_and_the_largest_step) {
   const std::string line = line_with(console_table(sample_results()), "  good ");

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_github_job_summary)
+
 namespace {
 
 Results failing_results() {
@@ -24,8 +26,6 @@ Results failing_results() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_github_job_summary)
 
 BOOST_AUTO_TEST_CASE(a_row_has_the_worst_instant_and_both_values_and_the_reason) {
   const auto rows = failures(failing_results());

@@ -19,6 +19,8 @@
 #include "tests/folder.h"
 
 using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_report_html_html_report)
 namespace fs = std::filesystem;
 
 namespace {
@@ -105,8 +107,6 @@ bool says_what_there_is(const Results& grid, const std::string& name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_html_html_report)
 
 BOOST_AUTO_TEST_CASE(the_programs_own_report_works_in_a_browser, *boost::unit_test::timeout(540)) {
   Folder folder;

@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_html_playback)
+
 namespace {
 
 Scene one_ball() {
@@ -48,8 +50,6 @@ JudgedRun judged(const Scene& scene, const Trajectory& run, const TruthSamples* 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_html_playback)
 
 BOOST_AUTO_TEST_CASE(a_thinned_motion_stays_close_and_keeps_its_impacts) {
   const Scene scene = one_ball();

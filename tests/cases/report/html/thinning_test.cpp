@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_html_thinning)
+
 namespace {
 
 // Of a series of values, in units of `seen`.
@@ -35,8 +37,6 @@ std::vector<double> bounces() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_html_thinning)
 
 BOOST_AUTO_TEST_CASE(lines_between_kept_samples_stay_as_close_as_asked) {
   const auto values = bounces();

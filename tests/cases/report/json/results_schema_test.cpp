@@ -9,6 +9,8 @@
 #include "core/scene/shape_types.h"
 
 using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_report_json_results_schema)
 using Json = nlohmann::ordered_json;
 using Words = std::set<std::string>;
 
@@ -44,8 +46,6 @@ void check_equal(const Words& in_schema, const Words& in_table) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_json_results_schema)
 
 BOOST_AUTO_TEST_CASE(has_the_statuses_and_verdicts_of_the_tables) {
   check_equal(words_of(at("/definitions/status")), words_until(Status::invalid));

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_junit_junit_report)
+
 namespace {
 
 // The sample's grid. One gate holds for one cell, fails for a blown-up one and meets a crashed one. A second is a known
@@ -37,8 +39,6 @@ long count(const std::string& text, const std::string& pattern) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_junit_junit_report)
 
 BOOST_AUTO_TEST_CASE(it_is_what_the_schema_says) {
   const Folder folder;

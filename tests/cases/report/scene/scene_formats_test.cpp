@@ -8,7 +8,7 @@
 using namespace rigor;
 using namespace rigor::test;
 
-namespace {
+namespace cases_report_scene_scene_formats {
 
 // Everything that both formats can say.
 constexpr const char* kMechanism = R"(title = "mechanism"
@@ -63,7 +63,7 @@ dt = ["1/100"]
 
 double apart(const Vec3& a, const Vec3& b) { return (a - b).norm(); }
 
-}  // namespace
+}  // namespace cases_report_scene_scene_formats
 
 BOOST_FIXTURE_TEST_SUITE(cases_report_scene_scene_formats, Program)
 

@@ -8,7 +8,7 @@
 using namespace rigor;
 using Json = nlohmann::json;
 
-namespace {
+namespace cases_report_trace_trace_formats {
 
 // A stone that turns while it flies, of each shape one, and a floor that it does not come to. Up is +z.
 constexpr const char* kShapes = R"(title = "shapes"
@@ -67,7 +67,7 @@ double off(const Json& found, const std::vector<double>& expected) {
 
 constexpr double kSingle = 1e-5;  // of some metres in single precision, which is what glTF has
 
-}  // namespace
+}  // namespace cases_report_trace_trace_formats
 
 BOOST_FIXTURE_TEST_SUITE(cases_report_trace_trace_formats, Traced)
 

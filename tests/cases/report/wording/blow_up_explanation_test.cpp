@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_blow_up_explanation)
+
 namespace {
 
 Results ran(Scene scene, const std::vector<std::string>& names, const StepSize& dt, double duration = 5) {
@@ -42,8 +44,6 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 const StepSize kThirtieth{1.0 / 30, "1/30"};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_blow_up_explanation)
 
 // 1 kg on 100 N/m and 100 N s/m: c dt/m = 3.33. Explicit Euler's step has the eigenvalue -2.2997, and its energy grows
 // by 5.29 in each step, not by 1 + (omega dt)^2 = 1.11.

@@ -20,6 +20,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_claims)
+
 namespace {
 
 class Generator {
@@ -194,8 +196,6 @@ Results ran(const std::vector<std::string>& cases, const std::vector<std::string
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_claims)
 
 BOOST_AUTO_TEST_CASE(each_number_and_comparison_follows_from_generated_results) {
   std::map<std::string, int> topics;

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_comparison)
+
 namespace {
 
 // The core is of second order and half as dear as the others, which are of first; the two of them stay together.
@@ -25,8 +27,6 @@ Results compared() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_comparison)
 
 BOOST_AUTO_TEST_CASE(the_tables_show_order_error_cost_gain_and_spread) {
   const Results results = compared();

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_contact_explanation)
+
 namespace {
 
 // The sample's first run at two steps, with these values of a metric at the coarser and the finer one.
@@ -31,8 +33,6 @@ std::vector<std::string> said_of(const Results& grid) {
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_contact_explanation)
 
 BOOST_AUTO_TEST_CASE(restitution_that_gets_worse_with_dt_does_not_converge) {
   const Instant bounce{0.5, 0, "restitution", 0.5, 1};

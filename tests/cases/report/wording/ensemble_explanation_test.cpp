@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_ensemble_explanation)
+
 namespace {
 
 Results with(double p_of_good, double p_of_wild, bool good_is_own = false) {
@@ -28,8 +30,6 @@ std::string said_of(const Results& grid) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_ensemble_explanation)
 
 BOOST_AUTO_TEST_CASE(a_run_differs_where_chance_would_hardly_part_so_far) {
   BOOST_TEST(

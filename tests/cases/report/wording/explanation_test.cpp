@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_explanation)
+
 namespace {
 
 Body block(double mass, const Vec3& position, double inertia = 1) {
@@ -23,8 +25,6 @@ Spring spring(int a, const Vec3& point_a, int b, const Vec3& point_b, double sti
 constexpr double kRounding = 1e-9;  // of a power method that has settled
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_explanation)
 
 BOOST_AUTO_TEST_CASE(a_mass_on_a_spring_swings_at_root_k_over_m) {
   Scene scene;

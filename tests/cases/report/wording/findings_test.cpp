@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_findings)
+
 namespace {
 
 bool has(const std::vector<Finding>& found, const std::string& part) {
@@ -37,8 +39,6 @@ Results drifting_results(double by_scheme, double without_gyroscopic_term) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_findings)
 
 BOOST_AUTO_TEST_CASE(who_blows_up_is_named_with_its_cases) {
   const auto sentences = findings(sample_results());

@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_joint_explanation)
+
 namespace {
 
 std::vector<std::string> said_of(const Results& grid) {
@@ -26,8 +28,6 @@ std::string joints_found(const Results& grid) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_joint_explanation)
 
 // A slider-crank whose rod is longer than its crank has no singular position. One step of 1/30 s took it for one.
 BOOST_AUTO_TEST_CASE(a_singular_position_is_told_only_where_the_finest_step_reports_it) {

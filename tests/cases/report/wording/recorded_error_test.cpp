@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_report_wording_recorded_error)
+
 namespace {
 
 // One run of three trials, of which the last ones have no value.
@@ -27,8 +29,6 @@ std::string mean_with(std::size_t lost) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_report_wording_recorded_error)
 
 BOOST_AUTO_TEST_CASE(a_mean_over_some_of_the_trials_says_so) {
   BOOST_TEST(mean_with(0) == "4 ± 0");

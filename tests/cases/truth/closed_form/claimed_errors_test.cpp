@@ -18,6 +18,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_claimed_errors)
+
 namespace {
 
 const std::filesystem::path kRecorded = RIGOR_SOURCE_DIR "/tests/cases/truth/closed_form/claimed_errors.txt";
@@ -93,8 +95,6 @@ bool are_same(double a, double b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_claimed_errors)
 
 BOOST_AUTO_TEST_CASE(no_closed_form_claims_another_error_than_was_recorded) {
   const Claims recorded = read(kRecorded), found = found_claims();

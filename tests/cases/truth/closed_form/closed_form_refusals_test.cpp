@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_closed_form_refusals)
+
 namespace {
 
 struct Row {
@@ -72,8 +74,6 @@ const Row kRows[] = {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_closed_form_refusals)
 
 BOOST_AUTO_TEST_CASE(a_scene_it_does_not_hold_for_is_refused_with_the_reason) {
   for (const Row& row : kRows) {

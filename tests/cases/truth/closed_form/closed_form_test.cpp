@@ -13,6 +13,8 @@ using namespace rigor;
 using test::SmoothScene;
 using test::truth_at;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_closed_form)
+
 namespace {
 
 // The distance of two states, each part relative to its scale: positions and velocities to the largest of their body's,
@@ -75,8 +77,6 @@ void check_conservation(const SmoothScene& row, const Truth& truth) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_closed_form)
 
 BOOST_AUTO_TEST_CASE(every_closed_form_agrees_with_the_reference) {
   for (const SmoothScene& row : test::smooth_scenes()) check_against_reference(row);

@@ -16,6 +16,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_spoilt_scenes)
+
 namespace {
 
 constexpr double kLongest = 0.6, kStep = 1.0 / 128;  // s: of a comparison, and of a sample
@@ -87,8 +89,6 @@ void spoil(const Case& c, Tally& tally) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_spoilt_scenes)
 
 BOOST_AUTO_TEST_CASE(a_closed_form_refuses_what_it_does_not_hold_for) {
   Tally tally;

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_recorded_recorded_motion)
+
 namespace {
 
 constexpr double kNoise = 1e-3, kTurnNoise = 2e-3;
@@ -45,8 +47,6 @@ BodyState at(const RecordedMotion& truth, double t, std::size_t body = 1) {
 const std::vector<double> kTimes = {0, 0.1, 0.25, 0.3, 0.5};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_recorded_recorded_motion)
 
 BOOST_AUTO_TEST_CASE(meets_a_cubic_and_an_even_turn_between_samples) {
   const RecordedMotion truth(recording(kTimes), 0, scene());

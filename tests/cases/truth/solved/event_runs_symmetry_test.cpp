@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_event_runs_symmetry)
+
 namespace {
 
 constexpr double kDuration = 1;     // s
@@ -77,8 +79,6 @@ class EquivalentRuns {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_event_runs_symmetry)
 
 // RIGOR_EQUIVALENT_SCENES=200 takes so many of them, and RIGOR_EQUIVALENT_SEED others.
 BOOST_AUTO_TEST_CASE(equivalent_runs_agree_until_the_motion_is_chaotic) {

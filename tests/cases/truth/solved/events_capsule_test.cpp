@@ -9,6 +9,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_capsule)
+
 namespace {
 
 // A capsule of which one end touches a tilted plane: position, orientation (w, x, y, z), velocity, angular velocity.
@@ -58,8 +60,6 @@ struct CapsuleOnEnd {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_capsule)
 
 // It lands on an end that sticks, and slips from 0.25 s on: the scene whose truth once claimed 1.2e-5 and was off by
 // 2.3e-3 rad.

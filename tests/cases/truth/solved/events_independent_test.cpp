@@ -9,6 +9,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_independent)
+
 namespace {
 
 // A body without weight on a joint of the world; the truth by events wants something that could touch.
@@ -74,8 +76,6 @@ void check_over_edge(const Body& support, double surface, double radius) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_independent)
 
 BOOST_AUTO_TEST_CASE(a_block_that_growing_pushes_move) {
   Scene scene = on_ground({on_its_own("block", Box{{0.4, 0.4, 0.1}}, 1, {0, 0, 0.05})}, 0.5);

@@ -13,6 +13,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_side_by_side)
+
 namespace {
 
 constexpr double kDuration = 0.6;   // s
@@ -82,8 +84,6 @@ Simulation run_of(const Scene& scene, double time_unit) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_side_by_side)
 
 // RIGOR_EQUIVALENT_SCENES=200 takes so many of them, and RIGOR_EQUIVALENT_SEED others.
 BOOST_AUTO_TEST_CASE(equivalent_truths_of_line_contacts_agree_within_their_claims) {

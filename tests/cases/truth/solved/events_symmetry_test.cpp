@@ -13,6 +13,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_symmetry)
+
 namespace {
 
 // How far two equivalent truths are apart, in units of the sum of their claims.
@@ -148,8 +150,6 @@ Scene ball_in_groove(double angle, double restitution) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_events_symmetry)
 
 // RIGOR_EQUIVALENT_SCENES=200 takes so many of them, and RIGOR_EQUIVALENT_SEED others.
 BOOST_AUTO_TEST_CASE(equivalent_scenes_agree_within_their_claims) {

@@ -14,6 +14,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_events)
+
 namespace {
 
 constexpr double kShort = 1;  // s: enough for impacts, stops and the end of slipping; many bodies roll on slowly
@@ -107,8 +109,6 @@ double position_error(const Case& c, const std::string& run_name, double dt) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_events)
 
 // Engines that share nothing with it: of first order, 4.8e-3 m at 1/1000 s and 5.5e-4 m at 1/4000 s measured.
 BOOST_AUTO_TEST_CASE(other_engines_come_to_it_among_joints) {

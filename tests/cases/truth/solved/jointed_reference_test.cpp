@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_jointed_reference)
+
 namespace {
 
 // Scenes that pass a singular position, where the rows in use become dependent, and slow scenes: a stiff spring, a mass
@@ -40,8 +42,6 @@ Scene ten_links() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_jointed_reference)
 
 BOOST_AUTO_TEST_CASE(it_meets_every_published_state_within_both_errors) {
   std::map<std::string, double> last;  // s, of the states of a scene

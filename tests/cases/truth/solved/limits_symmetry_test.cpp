@@ -10,6 +10,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_limits_symmetry)
+
 namespace {
 
 // A block falls onto the lower end of an inclined rail and bounces until it rests there. A spring holds a second one
@@ -63,8 +65,6 @@ double most_apart(const Scene& scene, const std::string& method, const Equivalen
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_limits_symmetry)
 
 // Powers of two scale every product exactly, so that rounding alone is left. One bound serves gaps in metres and sines
 // of angles where joints are closed, and it grows with the length: at 2^20 it leaves 2.6e-9.

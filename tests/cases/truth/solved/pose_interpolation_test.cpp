@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_pose_interpolation)
+
 namespace {
 
 // A motion whose position and rotation vector, both from the start, are cubics of the share s of kTime.
@@ -24,8 +26,6 @@ struct CubicMotion {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_pose_interpolation)
 
 // Rounding of rates of up to 20 a second.
 constexpr double kRounding = 1e-13;

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_published_joints)
+
 namespace {
 
 Scene on_line(const Vec3& axis) {
@@ -45,8 +47,6 @@ void check_meets(const Scene& scene, const std::vector<TabledState>& table) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_published_joints)
 
 BOOST_AUTO_TEST_CASE(a_body_falls_along_a_vertical_cylindrical_joint_as_adams_has_it) {
   check_meets(on_line(Vec3::UnitZ()), {{0.5, {2, 0, -1.22583}, {0, 0, -4.90333}, 0},

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_random_mechanisms)
+
 namespace {
 
 class Maker {
@@ -65,8 +67,6 @@ class Maker {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_random_mechanisms)
 
 // dormand-prince keeps some 1e-12 in each step. At limits, a flight shorter than a thousandth of the step is suppressed
 // (integrators/joint_events.cpp): 4 µs, in which 10 m/s² make 2e-5 m/s. A few of these per second leave 1e-6 m.

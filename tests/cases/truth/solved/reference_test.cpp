@@ -8,6 +8,8 @@
 using namespace rigor;
 using test::truth_at;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_reference)
+
 namespace {
 
 // A second solver, written separately: rotation matrices and momenta, the classical Runge-Kutta method with equal steps
@@ -113,8 +115,6 @@ Scene five_bodies() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_reference)
 
 BOOST_AUTO_TEST_CASE(it_agrees_with_a_solver_written_apart_from_it) {
   struct Row {

@@ -11,7 +11,7 @@
 using namespace rigor;
 namespace fs = std::filesystem;
 
-namespace {
+namespace cases_truth_solved_solution_cache {
 
 // The three variables that say where the cache is; as they were, afterwards.
 struct CacheFolder : Folder {
@@ -53,7 +53,7 @@ bool same(const ReferenceSolution& a, const ReferenceSolution& b) {
 const Scene kScene = test::coupled_bodies(0.5);
 const std::string kContent = reference_content(kScene, 1);
 
-}  // namespace
+}  // namespace cases_truth_solved_solution_cache
 
 BOOST_FIXTURE_TEST_SUITE(cases_truth_solved_solution_cache, CacheFolder)
 

@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_stops)
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -39,8 +41,6 @@ State at(const Truth& truth, double t) {
 double apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * kHalfTurn)); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_stops)
 
 // It falls from the horizontal to the stop at the bottom, and bounces to where sin(x/2) is e times as large, each time.
 BOOST_AUTO_TEST_CASE(a_pendulum_at_a_stop_rises_to_what_each_impact_leaves) {

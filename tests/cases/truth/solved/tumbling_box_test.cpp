@@ -9,6 +9,8 @@
 using namespace rigor;
 using rigor::test::MicroCollisions;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_solved_tumbling_box)
+
 namespace {
 
 std::vector<BodyState> by_micro_collisions(const Scene& scene, double hop, const std::vector<double>& times) {
@@ -32,8 +34,6 @@ double distance(const BodyState& a, const BodyState& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_solved_tumbling_box)
 
 // The blow at 1.064 s falls on an edge that slides. It is known to the truth's own error by the law that those corners
 // that approach take their blows together; taken one after another, the box comes to lie 4 mm away.

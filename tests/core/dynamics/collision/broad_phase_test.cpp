@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_collision_broad_phase)
+
 namespace {
 
 std::vector<std::pair<int, int>> overlaps_of_all(const std::vector<Aabb>& boxes) {
@@ -21,8 +23,6 @@ std::vector<std::pair<int, int>> overlaps_of_all(const std::vector<Aabb>& boxes)
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_collision_broad_phase)
 
 BOOST_AUTO_TEST_CASE(it_finds_what_a_search_of_all_pairs_finds) {
   std::mt19937 random(3);

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_collision_convex_pairs)
+
 namespace {
 
 class PairRandom {
@@ -52,8 +54,6 @@ double separation_along(const Vec3& n, const Shape& a, const Pose& pose_a, const
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_collision_convex_pairs)
 
 // The same points of contact, whichever of the two algorithms finds them.
 BOOST_AUTO_TEST_CASE(a_box_and_its_hull_touch_alike) {

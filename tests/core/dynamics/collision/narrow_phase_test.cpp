@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_collision_narrow_phase)
+
 namespace {
 
 // A shape's core (a point, a segment, a box) and the radius around it.
@@ -56,8 +58,6 @@ double least_gap(const Manifold& points) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_collision_narrow_phase)
 
 BOOST_AUTO_TEST_CASE(a_gap_is_the_distance_of_the_shapes) {
   std::mt19937 random(5);

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_collision_neighbour_list)
+
 namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
@@ -56,8 +58,6 @@ Vec3 wandering(int ball, double t, double speed) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_collision_neighbour_list)
 
 // A search holds for many steps; what it was made for changes in between: speeds, and a ball that jumps, goes far or is
 // lost.

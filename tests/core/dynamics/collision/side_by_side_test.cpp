@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_collision_side_by_side)
+
 namespace {
 
 const Capsule kLong{0.1, 0.8}, kShort{0.15, 0.5};
@@ -36,8 +38,6 @@ BodyPose beside(const Vec3& at, double angle, double heading) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_collision_side_by_side)
 
 // Gaps come from differences of metres, and a crossing at 3e-6 rad is known to 1e-5 m: 1e-20 m of its gap. At smaller
 // angles the ends stand for the crossing, which errs by (0.4 · 3e-6)²/(2 · 0.06) = 1.2e-11 m at the edge.

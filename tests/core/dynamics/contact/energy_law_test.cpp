@@ -8,6 +8,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_energy_law)
+
 namespace {
 
 Scene room(unsigned seed, double friction) {
@@ -47,8 +49,6 @@ double largest_gain(const Scene& scene, const std::string& method, const std::st
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_energy_law)
 
 BOOST_AUTO_TEST_CASE(no_impact_adds_energy) {
   for (const double friction : {0.0, 1.0}) {

@@ -7,6 +7,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_same_bits)
+
 namespace {
 
 // Balls of different masses and sizes at different heights, some of which meet each other.
@@ -67,8 +69,6 @@ bool same_bits(BodyColumns a, BodyColumns b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_same_bits)
 
 BOOST_AUTO_TEST_CASE(every_instruction_set_gives_the_same_bits) {
   const Kernels* tables[kMostKernelTables];

@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_integrators_joint_events)
+
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
@@ -66,8 +68,6 @@ void for_each_method_with_joints(const Visit& visit) {
 double quarter_period(double theta, double w0) { return std::comp_ellint_1(std::sin(theta / 2)) / w0; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_integrators_joint_events)
 
 // Without forces every method's motion is exact between impacts. Rounding of thirty of them in three steps.
 BOOST_AUTO_TEST_CASE(a_block_goes_to_and_fro_between_two_stops) {

@@ -4,6 +4,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_integrators_orientation_updates)
+
 namespace {
 
 BodyTable turned(const OrientationUpdate& update, const Vec3& w, double dt, int steps) {
@@ -20,8 +22,6 @@ double orthonormality_loss(const BodyTable& table) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_integrators_orientation_updates)
 
 // About a fixed axis each update has an angle and a stretch that can be written down.
 BOOST_AUTO_TEST_CASE(each_turns_by_its_known_angle) {

@@ -9,9 +9,9 @@
 #include "tests/scenes.h"
 
 using namespace rigor;
-using Run = test::MethodRun;
 
 BOOST_AUTO_TEST_SUITE(core_dynamics_integrators_single_methods)
+using Run = test::MethodRun;
 
 BOOST_AUTO_TEST_CASE(implicit_midpoint_says_when_its_equations_are_not_solved) {
   Run too_coarse(test::fixed_spring(), {&integrator("implicit-midpoint"), nullptr});

@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_ball_joints)
+
 namespace {
 
 constexpr double kStep = 1.0 / 240;  // s
@@ -118,8 +120,6 @@ double largest_difference(const BodyTable& a, const BodyTable& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_ball_joints)
 
 // Both stop at 1e-11 of the longest arm, .3 m; of a chain of 21 links such gaps add up to 6e-11 m at its end, which in
 // a step of 1/240 s is 1.5e-8 m/s. In a quarter of a second a falling chain spreads that less than tenfold.

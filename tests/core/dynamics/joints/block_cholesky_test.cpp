@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_block_cholesky)
+
 namespace {
 
 // S = B Bᵀ for joints of 3 rows, coupled by the pairs: each joint has random rows on its two bodies.
@@ -67,8 +69,6 @@ struct Example {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_block_cholesky)
 
 // A chain, a star, a tree and a loop, of full rank. Condition numbers are some thousand: 1e-16 times that.
 BOOST_AUTO_TEST_CASE(it_solves_chains_stars_trees_and_loops) {

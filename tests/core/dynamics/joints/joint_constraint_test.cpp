@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_joint_constraint)
+
 namespace {
 
 const std::vector<decltype(Joint::type)> kTypes = {
@@ -57,8 +59,6 @@ Evaluated evaluate(const JointConstraint& joint, const Scene& scene, double t) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_joint_constraint)
 
 // With constant V the gap's second derivative is the bias. Central differences over h = 1e-4 err by h² = 1e-8.
 BOOST_AUTO_TEST_CASE(each_row_and_its_bias_are_derivatives_of_the_gap) {

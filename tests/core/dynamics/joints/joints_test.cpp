@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_joints)
+
 namespace {
 
 // A chain of rods along x on hinges about z, from the world, let go.
@@ -35,8 +37,6 @@ double seconds_for(int links, int steps) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_joints)
 
 // Rows and ranks as counted by hand and by singular values.
 BOOST_AUTO_TEST_CASE(redundant_rows_are_counted_at_the_start) {

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_long_run)
+
 namespace {
 
 // Each step ends on the joints, so nothing can accumulate beyond rounding. semi-implicit-euler stops at 1e-11 of the
@@ -26,8 +28,6 @@ void check_gaps(const Scene& scene, double end, double rounding) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_long_run)
 
 BOOST_AUTO_TEST_CASE(no_method_lets_joints_part_in_ten_thousand_steps) {
   for (const char* id : {"joints/double-pendulum", "mechanisms/four-bar"}) {

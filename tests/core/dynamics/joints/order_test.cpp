@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_order)
+
 namespace {
 
 constexpr double kEnd = 0.5;  // s
@@ -26,8 +28,6 @@ double coarsest_step(int order) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_order)
 
 BOOST_AUTO_TEST_CASE(every_method_that_takes_joints_keeps_its_order_over_two_halvings) {
   const std::vector<std::string> scenes = {"joints/pendulum-90", "joints/double-pendulum", "joints/gyroscope",

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_published)
+
 namespace {
 
 // Mechanisms that pass a singular position, where dormand-prince cannot meet its tolerance.
@@ -22,8 +24,6 @@ double step_for(const std::string& id) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_published)
 
 // dormand-prince holds each inner step to 1e-12 of 1 + the value; there are some twenty in a second of slow motion, and
 // more by the rate of what turns. Errors then grow with the motion's own spreading, up to tenfold within these times.

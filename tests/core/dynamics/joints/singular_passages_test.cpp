@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_joints_singular_passages)
+
 namespace {
 
 // As a run of core:rk4 says it at its end; empty if it says nothing.
@@ -35,8 +37,6 @@ double upright_at(double dt) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_joints_singular_passages)
 
 BOOST_AUTO_TEST_CASE(a_pivot_that_comes_down_to_zero_is_a_passage_and_one_that_does_not_is_none) {
   // d², passed between two instants; and the same raised by the square of a hundredth of a radian.

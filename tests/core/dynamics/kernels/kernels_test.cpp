@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_kernels_kernels)
+
 namespace {
 
 std::vector<const Kernels*> every_table() {
@@ -99,8 +101,6 @@ double largest_difference(BodyColumns a, BodyColumns b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_kernels_kernels)
 
 // 60 steps, each with some tens of roundings of 1e-16 in values of order one, which these motions magnify little.
 BOOST_AUTO_TEST_CASE(steps_are_those_of_the_plain_formulas) {

@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_model_block_system)
+
 namespace {
 
 struct Block {
@@ -35,8 +37,6 @@ std::vector<Block> chain(std::size_t bodies, std::size_t reach, double coupling)
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_model_block_system)
 
 BOOST_AUTO_TEST_CASE(one_system_is_solved_again_and_again_with_other_numbers_and_other_blocks) {
   for (const std::size_t bodies : {2, 10, 11, 30}) {  // dense up to ten, sparse beyond

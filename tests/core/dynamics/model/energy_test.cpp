@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_model_energy)
+
 namespace {
 
 // The box of Peters and Hsu's comparison (2014): 10 kg, 0.1 x 0.4 x 0.9 m.
@@ -27,8 +29,6 @@ BodyTable initial(const Scene& scene) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_model_energy)
 
 // They print 5.001041625 and 368.5464125 J from an inertia rounded to four digits; these are the exact ones.
 BOOST_AUTO_TEST_CASE(the_published_boxes_have_their_energy_and_momentum) {

@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_model_joint_coordinate)
+
 namespace {
 
 // A wheel of 0.5 kg m² about an axis that lies across its own and W's.
@@ -48,8 +50,6 @@ double coordinate(const Scene& scene, const BodyTable& state) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_model_joint_coordinate)
 
 // Beyond half a turn the spring's angle would jump to the other side. The step in which it does so reports it.
 BOOST_AUTO_TEST_CASE(a_sprung_hinge_that_turns_by_half_a_turn_is_named) {

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_joints_axis_series)
+
 namespace {
 
 using Vec6d = Eigen::Matrix<double, 6, 1>;
@@ -94,8 +96,6 @@ std::vector<std::vector<SeriesAxis>> chains() {
 Chain chain_of(const std::vector<SeriesAxis>& axes) { return {axes, {0.7, -0.4, 0.6}}; }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_joints_axis_series)
 
 BOOST_AUTO_TEST_CASE(coordinates_of_a_chain_are_those_that_made_it_and_nothing_is_open) {
   for (const auto& axes : chains()) {

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_toml_body_reader)
+
 namespace {
 
 const std::vector<Refusal> kBadBodies = {
@@ -155,8 +157,6 @@ const std::vector<Refusal> kBadBodies = {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_toml_body_reader)
 
 BOOST_AUTO_TEST_CASE(each_body_that_cannot_be_is_refused) {
   for (const Refusal& row : kBadBodies) check_refusal(row, "s.toml", [&] { scene_of(row.text); });

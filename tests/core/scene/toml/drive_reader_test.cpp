@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_toml_drive_reader)
+
 namespace {
 
 // Lines 1 to 11. The motor's first key is on line 12.
@@ -79,8 +81,6 @@ std::set<std::string> features_of(const Scene& scene) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_toml_drive_reader)
 
 BOOST_AUTO_TEST_CASE(each_drive_that_cannot_be_is_refused) {
   for (const Refusal& row : kBadDrives) check_refusal(row, "s.toml", [&] { scene_of(kWheel + row.text); });

@@ -10,13 +10,13 @@
 using namespace rigor;
 namespace fs = std::filesystem;
 
-namespace {
+namespace core_scene_toml_file_reader {
 
 void check(const std::string& path, const std::string& fault) {
   BOOST_TEST(refusal_of([&] { read_text_file(path); }) == path + ": " + fault);
 }
 
-}  // namespace
+}  // namespace core_scene_toml_file_reader
 
 BOOST_FIXTURE_TEST_SUITE(core_scene_toml_file_reader, Folder)
 

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_toml_joint_reader)
+
 namespace {
 
 // Lines 1 to 6. What a row adds begins on line 7.
@@ -117,8 +119,6 @@ const std::vector<Refusal> kBadJoints = {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_toml_joint_reader)
 
 BOOST_AUTO_TEST_CASE(each_joint_motor_and_array_that_cannot_be_is_refused) {
   for (const Refusal& row : kBadJoints) check_refusal(row, "s.toml", [&] { scene_of(kBodies + row.text); });

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_toml_scene_reader)
+
 namespace {
 
 // Lines 1 to 8: two bodies that can move, and the ground. What a row adds begins on line 9.
@@ -148,8 +150,6 @@ const std::vector<Refusal> kBadRelations = {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_toml_scene_reader)
 
 BOOST_AUTO_TEST_CASE(each_scene_that_cannot_be_is_refused) {
   for (const Refusal& row : kBadScenes) check_refusal(row, "s.toml", [&] { scene_of(row.text); });

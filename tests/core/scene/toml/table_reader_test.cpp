@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_toml_table_reader)
+
 namespace {
 
 const Keys kKeys = {"flag", "friction", "mass", "name", "position", "rows", "share", "table", "unit"};
@@ -97,8 +99,6 @@ const std::vector<Row> kRows = {
 TableReader root_of(const TomlFile& file) { return file.root(kKeys); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_toml_table_reader)
 
 BOOST_AUTO_TEST_CASE(each_bad_value_is_refused_with_its_place_and_what_is_allowed) {
   for (const Row& row : kRows) {

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_contact_impacts)
+
 namespace {
 
 constexpr double kDt = 0.01;  // s
@@ -65,8 +67,6 @@ void check(const ImpactSpeeds& found, double time, double before, double after) 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_contact_impacts)
 
 BOOST_AUTO_TEST_CASE(a_bouncing_ball_is_followed_down_to_a_tenth_of_its_fastest_impact) {
   const Scene scene = balls_over_ground({0});

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_contact_tunnelling)
+
 namespace {
 
 constexpr double kDt = 1.0 / 30;
@@ -43,8 +45,6 @@ Stability verdict_at_wall(double speed, const std::function<double(double t)>& p
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_contact_tunnelling)
 
 BOOST_AUTO_TEST_CASE(what_goes_through_a_thin_wall_between_samples_or_slowly_has_tunnelled) {
   // 400 m/s is 13 m a sample: no sample sees the wall. 3 m/s is 0.1 m a sample, and ten of them do.

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_joints_joint_geometry)
+
 namespace {
 
 // Two bodies askew to each other, the second held to the first.
@@ -61,8 +63,6 @@ BodyTable gone_on(const BodyTable& from, double time) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_joints_joint_geometry)
 
 // Any violating velocity opens a gap at its rate, also from no gap at all.
 BOOST_AUTO_TEST_CASE(a_rate_is_that_at_which_the_gap_opens) {

@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_joints_joint_reactions)
+
 namespace {
 
 Scene suite_scene(const std::string& id) {
@@ -67,8 +69,6 @@ void check_against_truth(const Scene& scene, const std::string& id) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_joints_joint_reactions)
 
 // A rod on a hinge: m g/(1 + m d²/I) = m g/4 (nearly) where it is let go, and m (g + w² d) at the bottom.
 BOOST_AUTO_TEST_CASE(the_force_on_a_pendulums_hinge) {

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_metrics_measures_recorded_recorded_gaps)
+
 namespace {
 
 constexpr double kFloor = 1.5957691216057308;  // 2 sqrt(2/pi)
@@ -53,8 +55,6 @@ Measured measured(const Trajectory& run, double position_noise, double orientati
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_metrics_measures_recorded_recorded_gaps)
 
 // The samples from 0.1 to 0.5 s and from 1.5 to 2 s are compared: their mean time is (1.5 + 10.5)/11 s.
 BOOST_AUTO_TEST_CASE(the_mean_leaves_out_the_start_and_the_gap) {

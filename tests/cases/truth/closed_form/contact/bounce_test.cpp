@@ -7,6 +7,8 @@
 using namespace rigor;
 using test::truth_at;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_bounce)
+
 namespace {
 
 double height_at(const Truth& truth, double t) { return truth_at(truth, t, 2).columns().position(0).y() - 0.1; }
@@ -38,8 +40,6 @@ Scene ball_over_ground(double height, double restitution, double friction = kInf
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_bounce)
 
 BOOST_AUTO_TEST_CASE(it_agrees_with_marching_from_impact_to_impact) {
   for (const double e : {0.0, 0.3, 0.5, 0.8, 0.95, 1.0}) {

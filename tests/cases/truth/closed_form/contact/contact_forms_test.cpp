@@ -11,6 +11,8 @@
 using namespace rigor;
 using test::truth_at;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_contact_forms)
+
 namespace {
 
 const Box kBox{{0.4, 0.4, 0.2}};
@@ -63,8 +65,6 @@ void check_against_march(const Scene& scene, const char* truth, double angle, do
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_contact_forms)
 
 BOOST_AUTO_TEST_CASE(a_box_stops_after_the_published_distance) {
   const Scene scene = test::on_slope(kBox, 0, 0.5, 5);

@@ -9,6 +9,8 @@
 using namespace rigor;
 using test::truth_at;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_soft_bounce)
+
 namespace {
 
 constexpr double kStiffness = 1e4;
@@ -46,8 +48,6 @@ std::pair<double, double> marched(double height, double speed, const ContactLaw&
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_soft_bounce)
 
 // As gravity vanishes: 1e-6 m/s² changes the speed by as much in the time of flight and contact, below 1 s.
 BOOST_AUTO_TEST_CASE(the_speed_after_is_that_of_the_formula_without_gravity) {

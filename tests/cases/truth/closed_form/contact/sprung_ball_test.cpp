@@ -8,6 +8,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_sprung_ball)
+
 namespace {
 
 constexpr double kFrequency = 2 * std::numbers::pi;  // rad/s: a free swing takes a second
@@ -28,8 +30,6 @@ Scene swing(double start, double speed, double wall, double restitution) {
 BodyState at(const Truth& truth, double t) { return test::truth_at(truth, t, 2).columns().body(0); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_sprung_ball)
 
 BOOST_AUTO_TEST_CASE(where_it_does_not_reach_the_wall_it_is_the_oscillator) {
   Scene scene = swing(-0.3, 1, 0.5, 0.7);

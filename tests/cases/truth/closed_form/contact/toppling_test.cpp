@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_toppling)
+
 namespace {
 
 constexpr double kG = 9.81, kWidth = 0.4, kHeight = 1;
@@ -32,8 +34,6 @@ Scene toppling(double rate, double friction) {
 BodyState at(const Truth& truth, double t) { return test::truth_at(truth, t, 2).columns().body(0); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_toppling)
 
 BOOST_AUTO_TEST_CASE(it_keeps_its_energy_and_its_edge) {
   const auto truth = make_truth("toppling", toppling(1.6, 1), 0.8);

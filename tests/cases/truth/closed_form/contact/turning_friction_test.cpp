@@ -7,6 +7,8 @@
 using namespace rigor;
 using test::truth_at;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_turning_friction)
+
 namespace {
 
 const Sphere kBall{0.5};
@@ -28,8 +30,6 @@ double kinetic_energy(const Body& body, const BodyState& state) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_contact_turning_friction)
 
 // A second derivation: the energy falls by the couple times the angle, and rises by gravity's work.
 BOOST_AUTO_TEST_CASE(the_energy_falls_by_the_work_of_the_couple) {

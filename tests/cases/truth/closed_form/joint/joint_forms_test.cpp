@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_joint_joint_forms)
+
 namespace {
 
 const char* const kOfJoints[] = {"cardan-shaft", "heavy-top",         "linkage", "pendulum",
@@ -27,8 +29,6 @@ BodyState state_at(const Truth& truth, double t, const Scene& scene, std::size_t
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_joint_joint_forms)
 
 BOOST_AUTO_TEST_CASE(each_published_state_is_met) {
   std::vector<std::string> truths;  // that met one, once each time

@@ -7,6 +7,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_joint_pendulum_impacts)
+
 namespace {
 
 BodyState state_at(const Truth& truth, double t, const Scene& scene, const std::string& body) {
@@ -14,8 +16,6 @@ BodyState state_at(const Truth& truth, double t, const Scene& scene, const std::
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_joint_pendulum_impacts)
 
 // Published to thirteen digits: the height is that of the lowest point, and the speed turns round and is halved.
 BOOST_AUTO_TEST_CASE(a_ball_hits_the_wall_when_it_should_and_leaves_with_half_its_speed) {

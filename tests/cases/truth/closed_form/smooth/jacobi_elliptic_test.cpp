@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_smooth_jacobi_elliptic)
+
 namespace {
 
 using Wide = boost::multiprecision::cpp_bin_float_50;
@@ -20,8 +22,6 @@ constexpr long double kComplements[] = {1, 0.99L, 0.6L, 0.1L, 1e-2L, 1e-4L, 1e-7
 Wide modulus(long double complement) { return sqrt((1 - Wide(complement)) * (1 + Wide(complement))); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_smooth_jacobi_elliptic)
 
 BOOST_AUTO_TEST_CASE(the_functions_agree_with_boosts_in_fifty_digits) {
   for (const long double complement : kComplements) {

@@ -5,6 +5,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_smooth_oscillator)
+
 namespace {
 
 // Whether the truth of a run this long is refused because the body gets to the spring's other end.
@@ -21,8 +23,6 @@ bool passes_the_end(double speed, double damping, double duration) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_smooth_oscillator)
 
 // 1.25 m from the end where it rests; 5 rad/s, a period of 1.2566 s; it starts .25 m outside.
 BOOST_AUTO_TEST_CASE(it_is_refused_from_the_instant_on_at_which_it_reaches_the_springs_other_end) {

@@ -7,6 +7,8 @@
 using namespace rigor;
 using test::truth_at;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_smooth_published)
+
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;  // rad
@@ -39,8 +41,6 @@ std::vector<std::unique_ptr<Truth>> both_truths(const std::string& closed, const
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_smooth_published)
 
 BOOST_AUTO_TEST_CASE(free_fall_for_ten_seconds) {
   Scene scene;

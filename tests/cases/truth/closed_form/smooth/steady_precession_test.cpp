@@ -7,6 +7,8 @@
 using namespace rigor;
 using test::truth_at;
 
+BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_smooth_steady_precession)
+
 namespace {
 
 const Vec3 kPivot(0.3, -0.2, 1);
@@ -51,8 +53,6 @@ Vec3 derivative(const F& f, double t, double rate) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cases_truth_closed_form_smooth_steady_precession)
 
 // No engine and no reference runs a joint yet: the equations of motion about the joint themselves are the check.
 BOOST_AUTO_TEST_CASE(it_satisfies_the_equations_of_motion_about_the_joint) {

@@ -6,6 +6,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_course_course)
+
 namespace {
 
 // One resolution of the contacts, between no kick and no drift: explicit Euler with no time to pass.
@@ -16,8 +18,6 @@ struct Loaded {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_course_course)
 
 BOOST_AUTO_TEST_CASE(the_lowest_point_leaves_straight_up_with_the_restitution) {
   Scene scene = test::dropped_sphere(0.5);

@@ -5,6 +5,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_bad_starts)
+
 namespace {
 
 constexpr double kStep = 1.0 / 30;  // s
@@ -19,8 +21,6 @@ double least_distance(BodyColumns state, int count) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_bad_starts)
 
 BOOST_AUTO_TEST_CASE(spheres_in_one_place_part_to_all_sides_without_speed) {
   for (const int count : {2, 30, 90}) {  // 90 have 4005 overlaps, more than are parted together

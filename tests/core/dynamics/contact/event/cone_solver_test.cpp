@@ -8,6 +8,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_cone_solver)
+
 namespace {
 
 constexpr double kFriction = 0.5;
@@ -57,8 +59,6 @@ void check_laws(const Touching& scene, double tolerance) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_cone_solver)
 
 // A box whose corners all slide, turning as they do: each point's direction of friction is its own.
 BOOST_AUTO_TEST_CASE(what_slides_and_turns_is_braked_against_each_points_own_slip) {

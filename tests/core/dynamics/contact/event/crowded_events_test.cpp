@@ -11,6 +11,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_crowded_events)
+
 namespace {
 
 constexpr double kStep = 1.0 / 30;  // s
@@ -50,8 +52,6 @@ Body any_body(std::mt19937& random, int i) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_crowded_events)
 
 BOOST_DATA_TEST_CASE(a_row_of_dominoes_falls_and_comes_to_lie, boost::unit_test::data::make({3, 10}), count) {
   const Scene scene = dominoes(count);

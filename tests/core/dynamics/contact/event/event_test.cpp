@@ -11,6 +11,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_event)
+
 namespace {
 
 constexpr double kG = 9.81;
@@ -18,8 +20,6 @@ constexpr double kG = 9.81;
 int steps_to(double t, double dt) { return static_cast<int>(std::lround(t / dt)); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_event)
 
 BOOST_AUTO_TEST_CASE(bounces_keep_their_heights_and_end_at_the_right_instant) {
   const double h = 1, r = 0.1;

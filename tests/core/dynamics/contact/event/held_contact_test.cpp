@@ -10,6 +10,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_held_contact)
+
 namespace {
 
 constexpr double kG = 9.81;
@@ -77,8 +79,6 @@ struct BoxesOnSlope {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_held_contact)
 
 BOOST_AUTO_TEST_CASE(a_box_that_topples_without_slipping_keeps_the_order_of_the_integrator) {
   for (const char* integrator : {"rk4", "rkmk4", "velocity-verlet", "symplectic4"}) {

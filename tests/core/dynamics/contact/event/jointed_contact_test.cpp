@@ -11,6 +11,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_jointed_contact)
+
 namespace {
 
 constexpr double kG = 9.81;
@@ -101,8 +103,6 @@ Scene pushed_box(double most) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_jointed_contact)
 
 // Each impact leaves e² of the energy above the lowest point, and e = 0.6.
 BOOST_AUTO_TEST_CASE(a_rod_leaves_its_stop_with_the_energy_that_restitution_says) {

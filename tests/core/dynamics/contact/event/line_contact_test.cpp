@@ -7,6 +7,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_line_contact)
+
 namespace {
 
 constexpr double kRadius = 0.12, kLength = 0.5;
@@ -59,8 +61,6 @@ BodyTable end_of(const Scene& scene, const char* integrator, double dt, double t
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_line_contact)
 
 // Both call a slip of 1e-7 m/s at rest, a step of 1/60 s at a time: 1.7e-9 m each time that it begins or ends.
 BOOST_AUTO_TEST_CASE(a_capsule_along_a_line_moves_like_the_ball_of_its_cross_section) {

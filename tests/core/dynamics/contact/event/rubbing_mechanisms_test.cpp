@@ -11,6 +11,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_rubbing_mechanisms)
+
 namespace {
 
 class Maker {
@@ -109,8 +111,6 @@ double apart(const Fall& one, const Fall& other, double until) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_rubbing_mechanisms)
 
 // Each inner step's tolerance is 1e-12 of the state, which impacts magnify; measured at most 1e-10 m. Crowded events
 // are followed by first-order steps.

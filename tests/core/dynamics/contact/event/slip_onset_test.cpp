@@ -7,6 +7,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_slip_onset)
+
 namespace {
 
 constexpr double kEnd = 0.6;  // s
@@ -42,8 +44,6 @@ Scene bouncing_box(double friction) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_event_slip_onset)
 
 // The errors were 1.1e-2, 1.8e-3 and 6.1e-4 rad at 1/60, 1/240 and 1/960 s while fixed steps stepped over the onset.
 BOOST_AUTO_TEST_CASE(the_order_outlives_a_slip_that_begins) {

@@ -13,6 +13,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_impulse)
+
 namespace {
 
 constexpr double kG = 9.81;
@@ -32,8 +34,6 @@ double farthest_moved(const Scene& scene, BodyColumns state) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_impulse)
 
 BOOST_AUTO_TEST_CASE(ten_boxes_stand_for_a_minute_at_a_coarse_step) {
   std::vector<Body> boxes;

@@ -13,6 +13,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_jointed)
+
 namespace {
 
 Body ground() {
@@ -82,8 +84,6 @@ double energy_at_start(const Scene& scene) {
 const char* const kMethods[] = {"semi-implicit-euler", "velocity-verlet", "rk4"};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_jointed)
 
 // sin(theta_n/2) = e^n sin(theta_0/2) for each swing's top, up to the effect of an impact inside a sub-step of 1/480 s.
 // The bob's speed there is 3.1 m/s, 6 mm per sub-step. A wall that is met too early or late changes the energy by that,

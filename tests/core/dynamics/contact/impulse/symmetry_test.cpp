@@ -5,6 +5,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_symmetry)
+
 namespace {
 
 constexpr double kDt = 1.0 / 200;
@@ -50,8 +52,6 @@ void check_relations(std::uint32_t seed, const std::string& integrator) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_symmetry)
 
 BOOST_AUTO_TEST_CASE(generated_scenes_move_alike_in_all_units_axes_and_orders) {
   for (std::uint32_t seed = 0; seed < kScenes; ++seed) check_relations(seed, "velocity-verlet");

@@ -8,6 +8,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_turning_friction)
+
 namespace {
 
 constexpr double kG = 9.81, kBallRadius = 0.1, kRound = 0.4;  // m/s², m, 1
@@ -27,8 +29,6 @@ Scene rolling_ball(double heading, double speed, double rolling_friction) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_turning_friction)
 
 BOOST_AUTO_TEST_CASE(a_ball_rolls_to_rest_in_any_direction) {
   const double speed = 0.5, length = 0.002, brake = kG * length / (kBallRadius * (1 + kRound)), stop = speed / brake;

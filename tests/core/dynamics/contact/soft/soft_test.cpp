@@ -9,6 +9,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_soft_soft)
+
 namespace {
 
 constexpr double kSpringRate = 1e4;
@@ -26,8 +28,6 @@ Scene ball_before_wall(double damping) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_soft_soft)
 
 BOOST_AUTO_TEST_CASE(a_ball_leaves_a_wall_with_the_speed_of_the_closed_form) {
   for (const double damping : {0.0, 10.0, 60.0, 150.0}) {

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_model_loads_force_schedule)
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -40,8 +42,6 @@ double nearest_switch(const std::vector<TimedForce>& forces, double t, double en
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_model_loads_force_schedule)
 
 BOOST_AUTO_TEST_CASE(it_finds_what_acts_and_what_is_next_as_a_look_at_each_force_does) {
   for (const int count : {0, 1, 2, 33, 200}) {

@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_model_loads_loads)
+
 namespace {
 
 BodyTable initial(const Scene& scene) {
@@ -40,8 +42,6 @@ Vec6 wrench_of(const Wrench& w) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_model_loads_loads)
 
 // Without damping and timed forces the wrench is the downhill slope of the energy. Central differences with h = 1e-5
 // are right to h² times the third derivative, about 1e-7 here.

@@ -10,6 +10,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_toml_writing_scene_writer)
+
 namespace {
 
 // Every number of a scene by its bits, every name and index, in one list: two scenes are the same if theirs are. It is
@@ -230,8 +232,6 @@ from = 0.25
 )";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_toml_writing_scene_writer)
 
 BOOST_AUTO_TEST_CASE(every_case_of_the_suite_is_read_back_to_the_bit) {
   for (const Case& c : select_cases({}, default_suite_dir(), test::words())) {

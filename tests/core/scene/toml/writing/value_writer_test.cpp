@@ -9,6 +9,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_scene_toml_writing_value_writer)
+
 namespace {
 
 constexpr const char* kText = R"(title = "springs — with a dash"
@@ -38,8 +40,6 @@ Scene scene_of(const std::string& text) {
 Scene with(const std::string& path, const std::string& value) { return scene_of(with_value(kText, path, value)); }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_scene_toml_writing_value_writer)
 
 BOOST_AUTO_TEST_CASE(a_value_is_found_by_its_path_and_nothing_else_changes) {
   BOOST_TEST(with("scene.body.cube.mass", "7").bodies[0].mass == 7);

@@ -11,6 +11,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_rebounds_impact_energy)
+
 namespace {
 
 Scene two_bodies() {
@@ -54,8 +56,6 @@ Scene falling_pair(unsigned seed) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_rebounds_impact_energy)
 
 BOOST_AUTO_TEST_CASE(what_has_too_much_goes_back_towards_what_has_less_until_it_has_as_much) {
   const Scene scene = two_bodies();

@@ -11,6 +11,8 @@
 using namespace rigor;
 using namespace rigor::test;
 
+BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_rebounds_rebounds)
+
 namespace {
 
 const char* const kIntegrators[] = {"semi-implicit-euler", "velocity-verlet", "rk4"};
@@ -43,8 +45,6 @@ double farthest_apart(BodyColumns a, BodyColumns b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(core_dynamics_contact_impulse_rebounds_rebounds)
 
 BOOST_AUTO_TEST_CASE(a_row_of_balls_hit_from_both_sides_passes_the_blows_through) {
   for (const int count : {3, 5}) {
