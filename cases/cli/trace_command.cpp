@@ -9,6 +9,8 @@
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "cases/cli/vocabulary.h"
+#include "cases/metrics/measures/joints/joint_reactions.h"
+#include "cases/report/csv/reaction_csv.h"
 #include "cases/report/csv/trajectory_csv.h"
 #include "cases/report/trace/trace_formats.h"
 #include "cases/runner/grid.h"
@@ -86,6 +88,29 @@ void send_truth(const Truth& truth, const Scene& scene, const std::vector<double
   channel.send(rows);
 }
 
+// What joints carry at the truth's instants; a singular position has no such value.
+void send_truth_reactions(const Truth& truth, const Scene& scene, const std::vector<double>& times,
+                          const Channel& channel) {
+  JointReactions reactions(scene);
+  std::vector<JointGeometry> geometry;
+  for (const Joint& joint : scene.joints) geometry.emplace_back(scene, joint);
+  std::string rows = std::string(1, kData) + kReactionHeader;
+  BodyTable bodies(scene.bodies.size());
+  for (const double time : times) {
+    truth.at(time, bodies.columns());
+    const auto carried = reactions.at(bodies.columns(), time);
+    if (!carried) {
+      channel.send(fmt::format("{}at {:.6g} s the joints' position is singular; left out", kNote, time));
+      continue;
+    }
+    for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+      append_reaction_row(rows, scene, scene.joints[k], time, end_motion(geometry[k].b(), bodies.columns()).point(),
+                          (*carried)[k]);
+    }
+  }
+  channel.send(rows);
+}
+
 std::string steps_of(const Case& definition) {
   std::vector<std::string> texts;
   for (const StepSize& step : definition.dt) texts.push_back(step.text);
@@ -125,6 +150,8 @@ class TraceCommand : public Command {
     options.add_flag("--contacts",
                      "print the contact forces of each step: in CSV in place of the bodies, else beside them",
                      contacts_);
+    options.add_flag("--reactions",
+                     "print as CSV what the engine says that each joint carries, from the second step on", reactions_);
     options.add({"--format", "F", either_of(names_of(trace_formats())) + "; default: csv", names_of(trace_formats())},
                 format_);
   }
@@ -137,6 +164,7 @@ class TraceCommand : public Command {
     const std::vector<StepSize> steps = steps_.dt.empty() ? definition.dt : steps_.dt;
     if (steps.size() != 1) throw InputError("rigor trace: takes exactly one --dt; " + steps_of(definition));
     const TraceFormat& format = format_.empty() ? trace_formats().front() : find_trace_format(format_);
+    if (reactions_) refuse_beside_reactions();
     override_run(definition, {steps, duration_.seconds});
     const RunName run = run_of_option(engine_.engines.front(), engines.infos());
     const Engine& engine = engines.find(run.engine);
@@ -147,11 +175,13 @@ class TraceCommand : public Command {
     refuse_too_many_rows(definition.scene, static_cast<double>(count), every_);
     return print_from_child(run.text, timeout_.seconds, [&](const Channel& channel) {
       try {
-        const Simulation done = simulate(engine, run.settings, definition.scene, dt, definition.duration,
-                                         {.steps_per_sample = every_, .has_contacts = contacts_});
+        const Simulation done =
+            simulate(engine, run.settings, definition.scene, dt, definition.duration,
+                     {.steps_per_sample = every_, .reactions_every = reactions_ ? 1 : 0, .has_contacts = contacts_});
+        if (reactions_) refuse_unreported(done, definition.scene, run.text);
         if (contacts_ && !done.trajectory.has_contacts)
           throw InputError(fmt::format("{}: unsupported: the engine does not report contact forces here", run.text));
-        const auto writer = format.writer(definition.scene, contacts_);
+        const auto writer = reactions_ ? reactions_trace(definition.scene) : format.writer(definition.scene, contacts_);
         send_trajectory(done, definition.scene, static_cast<std::size_t>(count / every_) + 1, *writer, channel);
       } catch (const EngineFailure& failure) {
         if (failure.kind() != FailureKind::unsupported) throw;
@@ -162,13 +192,26 @@ class TraceCommand : public Command {
   }
 
  private:
+  void refuse_beside_reactions() const {
+    if (every_ != 1) throw InputError("rigor trace: --reactions takes no --every; it prints each step");
+    if (contacts_) throw InputError("rigor trace: --reactions and --contacts are two tables; ask for one of them");
+    if (!format_.empty() && format_ != "csv") throw InputError("rigor trace: --reactions is written as csv only");
+  }
+  static void refuse_unreported(const Simulation& run, const Scene& scene, const std::string& name) {
+    if (scene.joints.empty()) throw InputError("rigor trace: --reactions: the case has no joints");
+    const std::vector<Sample>& samples = run.trajectory.samples;
+    if (samples.size() < 3) throw InputError("rigor trace: --reactions needs a run of two steps or more");
+    if (samples[2].reactions.empty())
+      throw InputError(name + ": unsupported: the engine does not say what its joints carry here");
+  }
+
   CaseWords cases_;
   EngineOptions engine_;
   StepOption steps_;
   DurationOption duration_;
   TimeoutOption timeout_;
   int every_ = 1;
-  bool contacts_ = false;
+  bool contacts_ = false, reactions_ = false;
   std::string format_;  // empty: the default
 };
 
@@ -178,12 +221,17 @@ class TruthCommand : public Command {
     cases_.declare(options), duration_.declare(options), timeout_.declare(options);
     options.add({"--times", "T,T...", "instants in s; default: every coarsest step of the run"},
                 [this](const std::string& text) { times_ = parse_times(text); });
+    options.add_flag("--reactions", "print what each joint carries, in place of the bodies", reactions_);
   }
 
   int run(const Invocation& invocation) override {
     Case definition = the_case(cases_, invocation, built_in_engines());
     if (definition.truth == "none")
       throw InputError(fmt::format("{}: the case states no truth (truth.kind is \"none\")", definition.id));
+    if (reactions_) {
+      const std::string why = why_reactions_are_unknown(definition.scene);
+      if (!why.empty()) throw InputError(fmt::format("{}: --reactions: {}", definition.id, why));
+    }
     if (duration_.seconds) definition.duration = *duration_.seconds;
     std::vector<double> times = times_;
     if (times.empty()) override_run(definition, {}), times = times_of_run(definition);
@@ -192,7 +240,7 @@ class TruthCommand : public Command {
     return print_from_child("the truth of " + definition.id, timeout_.seconds, [&](const Channel& channel) {
       const auto truth = truth_of(definition, end);
       if (!truth->caveat().empty()) channel.send(kNote + truth->caveat());
-      send_truth(*truth, definition.scene, times, channel);
+      (reactions_ ? send_truth_reactions : send_truth)(*truth, definition.scene, times, channel);
     });
   }
 
@@ -201,6 +249,7 @@ class TruthCommand : public Command {
   DurationOption duration_;
   TimeoutOption timeout_;
   std::vector<double> times_;  // s
+  bool reactions_ = false;
 };
 
 }  // namespace
@@ -232,7 +281,8 @@ CommandRow truth_row() {
           "CASE",
           "a case or a file",
           {{"rigor truth springs/fixed-spring", "at every coarsest step of the run"},
-           {"rigor truth springs/fixed-spring --times 1,2,5/2", "at three instants"}},
+           {"rigor truth springs/fixed-spring --times 1,2,5/2", "at three instants"},
+           {"rigor truth joints/pendulum-90 --reactions", "force and couple on each joint's second body"}},
           make_command<TruthCommand>};
 }
 

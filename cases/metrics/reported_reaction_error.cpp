@@ -6,19 +6,10 @@
 
 #include "cases/metrics/measures/joints/joint_series.h"
 #include "cases/metrics/measures/joints/reaction_difference.h"
+#include "cases/metrics/measures/joints/reported_at_joint.h"
 
 namespace rigor {
 namespace {
-
-// What a report on one of the bodies says of b, at the joint's point. The bodies are those of the step's start.
-JointReaction at_joint(const Joint& joint, const JointGeometry& geometry, const ReportedReaction& reported,
-                       BodyColumns bodies) {
-  const MovingEnd a = end_motion(geometry.a(), bodies), b = end_motion(geometry.b(), bodies);
-  const bool is_on_b = reported.body == joint.b;
-  const Vec3 arm = is_on_b ? b.arm : geometry.slides() ? Vec3(b.point() - a.centre) : a.arm;
-  const double sign = is_on_b ? 1 : -1;
-  return {sign * reported.force, sign * (reported.torque - arm.cross(reported.force))};
-}
 
 class ReportedReactions {
  public:
@@ -36,7 +27,8 @@ class ReportedReactions {
     ComparedReactions all{*unique, {}, {}};
     for (std::size_t k = 0; k < geometry_.size(); ++k) {
       const JointReaction &at_start = (*first)[k], &at_end = (*last)[k];
-      all.found.push_back(at_joint(run_.scene.joints[k], geometry_[k], sample.reactions[k], before.bodies.columns()));
+      all.found.push_back(
+          reported_at_joint(run_.scene.joints[k], geometry_[k], sample.reactions[k], before.bodies.columns()));
       all.expected.push_back({0.5 * (at_start.force + at_end.force), 0.5 * (at_start.couple + at_end.couple)});
     }
     return all;

@@ -33,6 +33,7 @@ const std::vector<TraceFormat>& trace_formats();                // "csv" first, 
 const TraceFormat& find_trace_format(const std::string& name);  // throws InputError
 
 std::unique_ptr<TraceWriter> contacts_trace(const Scene& scene);  // CSV of contact forces in place of bodies
+std::unique_ptr<TraceWriter> reactions_trace(const Scene& scene);  // CSV of reported joint loads, of every step
 std::unique_ptr<TraceWriter> csv_trace(const Scene& scene, bool has_contacts);
 std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene, bool has_contacts);
 std::unique_ptr<TraceWriter> jsonl_trace(const Scene& scene, bool has_contacts);
