@@ -26,14 +26,16 @@ struct RecordedTrial {
 };
 
 struct MotionRecording {
-  std::string path;              // of the CSV file
-  double position_noise = 0;     // m: standard deviation along each axis
-  double orientation_noise = 0;  // rad: standard deviation about each axis
-  double length = 0;             // m: errors in percent are percent of it; 0: the case gives none
-  std::string group;             // the column that divides the file into trials; empty: one trial
-  std::string synthetic;         // the engine that made the motion; empty for measured motion
-  int start_fit = 0;             // samples that determine the start; 0: the first one is the start
-  std::uint64_t content = 0;     // hash of the file
+  std::string path;                 // of the CSV file
+  double position_noise = 0;        // m: standard deviation along each axis; 0 if no position was measured
+  double orientation_noise = 0;     // rad: standard deviation about each axis; 0 if no orientation was measured
+  bool is_noise_estimated = false;  // one of the two, from the scatter of the samples
+  double length = 0;                // m: errors in percent are percent of it; 0: the case gives none
+  std::string group;                // the column that divides the file into trials; empty: one trial
+  std::string synthetic;            // the engine that made the motion; empty for measured motion
+  int start_fit = 0;                // samples that determine the start; 0: the first one is the start
+  std::uint64_t content = 0;        // hash of the file
+  double piece = 0;                 // s: trials were cut into pieces of this length; 0: they are whole
   std::vector<RecordedTrial> trials;
 
   double longest() const;  // s

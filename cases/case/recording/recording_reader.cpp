@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <map>
 
+#include "cases/case/recording/noise.h"
+#include "cases/case/recording/pieces.h"
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
 #include "core/scene/shapes/mesh_file.h"
@@ -65,6 +67,39 @@ int read_start_fit(const TomlValue& value) {
   return static_cast<int>(count);
 }
 
+// A stated value, else the scatter of the samples.
+void read_noise(const TableReader& truth, MotionRecording& recording) {
+  const auto position = truth.find("position_noise"), orientation = truth.find("orientation_noise");
+  if (position) recording.position_noise = position->positive();
+  if (orientation) recording.orientation_noise = orientation->positive();
+  if (position && orientation) return;
+  const EstimatedNoise estimated = estimated_noise(recording.trials);
+  const auto is_measured = [&](const auto part) { return !(recording.trials.front().bodies.front().*part).empty(); };
+  const auto estimate = [&](bool is_wanted, const std::optional<double>& value, const char* key, double& noise) {
+    if (!is_wanted) return;
+    if (!value)
+      truth.at("file").refuse(
+          fmt::format("{} shows no scatter over nine samples in a row, so its noise is not known; allowed: truth.{}",
+                      recording.path, key));
+    noise = *value, recording.is_noise_estimated = true;
+  };
+  estimate(!position && is_measured(&RecordedBody::positions), estimated.position, "position_noise",
+           recording.position_noise);
+  estimate(!orientation && is_measured(&RecordedBody::orientations), estimated.orientation, "orientation_noise",
+           recording.orientation_noise);
+}
+
+void cut(const TableReader& truth, MotionRecording& recording) {
+  const auto piece = truth.find("piece");
+  if (!piece) return;
+  recording.piece = piece->positive();
+  try {
+    recording.trials = pieces_of(recording.trials, recording.piece);
+  } catch (const InputError& fault) {
+    piece->refuse(fault.what());
+  }
+}
+
 // The start needs the rate of each part that was measured.
 void check_start_is_known(const TableReader& truth, const MotionRecording& recording) {
   for (const RecordedTrial& trial : recording.trials) {
@@ -89,8 +124,8 @@ void check_start_is_known(const TableReader& truth, const MotionRecording& recor
 }  // namespace
 
 const Keys& truth_keys() {
-  static const Keys keys = {"kind",  "file",   "position_noise", "orientation_noise",
-                            "group", "length", "start_fit",      "synthetic"};
+  static const Keys keys = {"kind",   "file",  "position_noise", "orientation_noise", "group",
+                            "length", "piece", "start_fit",      "synthetic"};
   return keys;
 }
 
@@ -99,8 +134,6 @@ namespace {
 // Null if the file is missing.
 std::shared_ptr<const MotionRecording> read(const TableReader& truth, const Case& of) {
   MotionRecording recording;
-  recording.position_noise = truth.at("position_noise").positive();
-  recording.orientation_noise = truth.at("orientation_noise").positive();
   if (const auto group = truth.find("group")) recording.group = group->text();
   if (const auto length = truth.find("length")) recording.length = length->positive();
   if (const auto count = truth.find("start_fit")) recording.start_fit = read_start_fit(*count);
@@ -110,6 +143,8 @@ std::shared_ptr<const MotionRecording> read(const TableReader& truth, const Case
   if (recording.path.empty()) return nullptr;
   const std::shared_ptr<const ParsedFile> parsed = parsed_file(recording.path, recording.group, of.scene);
   recording.content = parsed->content, recording.trials = parsed->trials;
+  read_noise(truth, recording);
+  cut(truth, recording);
   check_start_is_known(truth, recording);
   return std::make_shared<const MotionRecording>(std::move(recording));
 }

@@ -141,10 +141,11 @@ std::string RecordedMotion::caveat() const {
                         shortest, of.longest());
   }
   const double degrees = of.orientation_noise * 180 / M_PI;
-  return text + fmt::format(
-                    "The measurement has a noise of {:.2g} m and {:.2g}°, which alone makes mean errors of "
-                    "{:.2g} m and {:.2g}°.",
-                    of.position_noise, degrees, kMeanOfNoise * of.position_noise, kMeanOfNoise * degrees);
+  text += fmt::format(
+      "The measurement has a noise of {:.2g} m and {:.2g}°, which alone makes mean errors of {:.2g} m and {:.2g}°.",
+      of.position_noise, degrees, kMeanOfNoise * of.position_noise, kMeanOfNoise * degrees);
+  if (of.is_noise_estimated) text += " It is estimated from the scatter of the samples, which shows no constant error.";
+  return text;
 }
 
 const RecordedMotion* as_recording(const Truth* truth) { return dynamic_cast<const RecordedMotion*>(truth); }

@@ -12,6 +12,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_plugin_examples_page, *boost::unit_test::enable_if<RIGOR_HTML_REPORT>())
+
 namespace {
 
 std::string content(const std::filesystem::path& path) {
@@ -39,8 +41,6 @@ bool succeeds(const std::string& commands, const Folder& folder) {
 }  // namespace
 
 // npm is there where the HTML report is made.
-BOOST_AUTO_TEST_SUITE(adapters_plugin_examples_page, *boost::unit_test::enable_if<RIGOR_HTML_REPORT>())
-
 BOOST_AUTO_TEST_CASE(seven_examples_make_one_page_by_the_documented_commands) {
   const Folder folder;
   const std::filesystem::path to = folder.path / "adapters/plugin";

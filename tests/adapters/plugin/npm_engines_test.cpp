@@ -14,6 +14,8 @@
 
 using namespace rigor;
 
+BOOST_AUTO_TEST_SUITE(adapters_plugin_npm_engines, *boost::unit_test::enable_if<RIGOR_HTML_REPORT>())
+
 namespace {
 
 struct Answer {
@@ -38,8 +40,6 @@ constexpr const char* kEngines[][2] = {
 }  // namespace
 
 // They are installed by npm, as what the HTML report's page is made of.
-BOOST_AUTO_TEST_SUITE(adapters_plugin_npm_engines, *boost::unit_test::enable_if<RIGOR_HTML_REPORT>())
-
 BOOST_AUTO_TEST_CASE(each_of_them_conforms) {
   const Folder folder;
   for (const auto& [file, name] : kEngines) {

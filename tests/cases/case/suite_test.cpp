@@ -7,9 +7,10 @@
 #include "tests/folder.h"
 
 using namespace rigor;
-namespace fs = std::filesystem;
 
 namespace cases_case_suite {
+
+namespace fs = std::filesystem;
 
 const std::string kCase = "title = 'x'\nscene.body = [{ name = 'a', fixed = true }]\nrun = { duration = 1, dt = 1 }";
 

@@ -5,9 +5,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_diverge {
+
+using Json = nlohmann::json;
 
 constexpr const char* kTop = R"(title = "a top"
 [scene]

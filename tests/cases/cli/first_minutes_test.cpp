@@ -6,9 +6,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_first_minutes {
+
+using Json = nlohmann::json;
 
 struct Variable {
   explicit Variable(const std::string& value) { setenv("RIGOR_HOME", value.c_str(), 1); }

@@ -6,9 +6,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_held_to_itself {
+
+using Json = nlohmann::json;
 
 constexpr const char* kBounces = R"(title = "A ball that bounces, its truth by events"
 [scene]

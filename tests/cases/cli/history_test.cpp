@@ -5,9 +5,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_history {
+
+using Json = nlohmann::json;
 
 struct Fixture : Program {
   Fixture() {

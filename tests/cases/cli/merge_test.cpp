@@ -6,9 +6,10 @@
 #include "tests/cases/cli/without_timings.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_merge {
+
+using Json = nlohmann::json;
 
 constexpr const char* kGates = R"([[gate]]
 metric = "position_error"

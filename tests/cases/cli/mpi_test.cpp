@@ -5,9 +5,10 @@
 #include "tests/cases/cli/without_timings.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_mpi {
+
+using Json = nlohmann::json;
 
 constexpr const char* kGate = R"([[gate]]
 metric = "position_error"

@@ -5,9 +5,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_repeat {
+
+using Json = nlohmann::json;
 
 struct RepeatFixture : Program {
   RepeatFixture() { folder.write("cube.toml", kSprungCube); }

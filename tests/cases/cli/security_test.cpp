@@ -7,9 +7,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-namespace fs = std::filesystem;
 
 namespace cases_cli_security {
+
+namespace fs = std::filesystem;
 
 const std::string kWayUp = "../../planted";
 const std::string kMarkup = "\"><img src=x onerror=alert(1)></script><script>alert(2)</script>";

@@ -9,9 +9,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_sweep {
+
+using Json = nlohmann::json;
 
 struct Fixture : Program {
   Fixture() { folder.write("suite/springs/spring.toml", kSprungCube); }

@@ -9,9 +9,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_ties {
+
+using Json = nlohmann::json;
 
 // A ball meets two others in one instant, or one of them 1 mm earlier.
 std::string three_balls(double earlier) {

@@ -6,9 +6,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_cli_tune {
+
+using Json = nlohmann::json;
 
 struct Fixture : Program {
   Fixture() { folder.write("stone.toml", kThrown); }

@@ -7,6 +7,7 @@
 #include "cases/report/wording/recorded_error.h"
 #include "cases/results/result_json.h"
 #include "cases/results/trial_results.h"
+#include "cases/truth/recorded/recorded_motion.h"
 #include "core/base/json.h"
 #include "tests/cases/recorded_case.h"
 #include "tests/core/scene/toml/refusal.h"
@@ -122,7 +123,9 @@ BOOST_AUTO_TEST_CASE(bad_keys_are_refused_with_their_place) {
     BOOST_TEST_CONTEXT(message) { BOOST_TEST((message.find(part) != std::string::npos)); }
   };
   says(refusal("position_noise = 0.0001", "position_noise = 0"), "slide.toml:24:18: truth.position_noise: found 0");
-  says(refusal("orientation_noise = 0.001", ""), "orientation_noise: missing");
+  says(refusal("length = 0.4", "piece = 0"), "truth.piece: found 0");
+  says(refusal("length = 0.4", "piece = 3"), "truth.piece: found 3 s, and the longest trial lasts 0.2 s");
+  says(refusal("length = 0.4", "piece = 0.05"), "ends after 0.05 s, and the run after 0.2 s");
   says(refusal("duration = 0.2", "duration = 0.3"), "ends after 0.2 s, and the run after 0.3 s");
   says(refusal("kind = \"recording\"", "kind = \"sliding\""), "truth.file: a computed truth has no file");
   says(refusal("group = \"trial\"", "group = \"trail\""), "did you mean 'trial'?");
@@ -130,6 +133,40 @@ BOOST_AUTO_TEST_CASE(bad_keys_are_refused_with_their_place) {
   says(refusal("length = 0.4", "start_fit = 100"), "found 100, and trial 't0' has 41 samples");
   says(refusal("length = 0.4", "start_fit = 3"), "a whole number from 4 to 10000");
   says(refusal("slide.csv", "../slide.csv"), "not in the case file's folder");
+}
+
+// From 0.05 to 0.1 s and so on, each as a trial of its own: what friction of a third too much makes is a quarter as
+// large in half the time, and noise is not.
+BOOST_AUTO_TEST_CASE(pieces_of_trials_are_trials_with_starts_of_their_own) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 2, 1));
+  std::string text = test::recorded_case(0.4, "slide.csv") + "piece = 0.1\n";
+  text.replace(text.find("duration = 0.2"), 14, "duration = 0.1");
+  const Results grid = results_of(folder.write("slide.toml", text));
+  const Cell& cell = grid.cases[0].cells[0];
+  BOOST_TEST_CONTEXT(cell.reason) { BOOST_TEST_REQUIRE((cell.status == Status::pass)); }
+  const std::vector<TrialResult> trials = trials_of(cell);
+  BOOST_TEST_REQUIRE(trials.size() == 4u);
+  BOOST_TEST(trials[1].name == "t0 from 0.1 s");
+  for (const TrialResult& trial : trials) {
+    // As above, over 20 samples: 3.8 % more becomes 7.7 %. The noise of 0.1 mm is a tenth of the error, and the start's
+    // is in it.
+    BOOST_TEST(std::abs(trial.metrics.at("mean_position_error") - 100 * 9.81 * 0.1 * 0.01 / 6 / 0.4 * 1.077) < 0.08);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(noise_that_is_not_stated_is_estimated_and_said_to_be) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 6, 1));
+  std::string text = test::recorded_case(0.3, "slide.csv");
+  for (const char* const key : {"position_noise = 0.0001", "orientation_noise = 0.001"})
+    text.replace(text.find(key), std::string(key).size(), "");
+  const Case definition = read_case(folder.write("slide.toml", text), "slide", test::words());
+  BOOST_TEST(definition.recording->is_noise_estimated);
+  // From 198 windows that overlap, so from some 25 independent ones with 18 degrees of freedom each: to 3 % or so.
+  BOOST_TEST(definition.recording->position_noise == test::kPositionNoise, boost::test_tools::tolerance(0.12));
+  BOOST_TEST(definition.recording->orientation_noise == 0.001, boost::test_tools::tolerance(0.12));
+  BOOST_TEST(truth_of(definition, 0.2)->caveat().find("estimated") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(runs_of_the_engine_that_made_a_synthetic_recording_are_no_witness) {

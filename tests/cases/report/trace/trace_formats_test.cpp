@@ -6,9 +6,10 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using Json = nlohmann::json;
 
 namespace cases_report_trace_trace_formats {
+
+using Json = nlohmann::json;
 
 // A stone that turns while it flies, of each shape one, and a floor that it does not come to. Up is +z.
 constexpr const char* kShapes = R"(title = "shapes"

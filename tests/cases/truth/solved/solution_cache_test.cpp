@@ -9,9 +9,10 @@
 #include "tests/folder.h"
 
 using namespace rigor;
-namespace fs = std::filesystem;
 
 namespace cases_truth_solved_solution_cache {
+
+namespace fs = std::filesystem;
 
 // The three variables that say where the cache is; as they were, afterwards.
 struct CacheFolder : Folder {

@@ -8,9 +8,10 @@
 #include "tests/folder.h"
 
 using namespace rigor;
-namespace fs = std::filesystem;
 
 namespace core_scene_toml_file_reader {
+
+namespace fs = std::filesystem;
 
 void check(const std::string& path, const std::string& fault) {
   BOOST_TEST(refusal_of([&] { read_text_file(path); }) == path + ": " + fault);
