@@ -13,6 +13,7 @@
 #include "core/engine/clock.h"
 #include "core/engine/option_values.h"
 #include "core/engine/run_name.h"
+#include "core/engine/saved_bytes.h"
 #include "core/scene/contact_laws.h"
 #include "core/scene/joint_loops.h"
 #include "core/scene/toml/scene_reader.h"
@@ -37,10 +38,11 @@ OptionInfo orientation_option(const Integrator& integrator) {
           .by_default = integrator.default_orientation};
 }
 
-class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
+class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps, public SavesState {
  public:
   CoreWorld(const Scene& scene, const Integrator& integrator, const Settings& settings)
-      : system_(scene),
+      : owner_("core", RIGOR_VERSION, scene, settings),
+        system_(scene),
         integrator_(integrator),
         tolerance_(number_option(settings, kToleranceOption)),
         contact_method_(settings.options.contains("contact") ? contact_method(settings.options.at("contact"))
@@ -69,7 +71,10 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
   }
 
   Capabilities capabilities() override {
-    return {.reduced_order = this, .divided_steps = this, .contacts = contact_ ? contact_->contact_reports() : nullptr};
+    return {.reduced_order = this,
+            .divided_steps = this,
+            .contacts = contact_ ? contact_->contact_reports() : nullptr,
+            .state = this};
   }
 
   void step(double dt) override {
@@ -116,7 +121,22 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
 
   std::optional<double> sub_step() const override { return contact_ ? contact_->sub_step() : std::nullopt; }
 
+  // An archive that saves changes nothing.
+  std::unique_ptr<SavedState> save() const override {
+    return owner_.save([this](StateArchive& archive) { const_cast<CoreWorld*>(this)->archive_state(archive); });
+  }
+  void restore(const SavedState& state) override {
+    owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
+  }
+
  private:
+  void archive_state(StateArchive& archive) {
+    archive(clock_, state_, system_.loads, passages_);
+    if (joints_) archive(*joints_);
+    if (motors_) archive(*motors_);
+    stepper_->archive_state(archive);
+  }
+
   // The rows of couplings stand behind those of joints. Each of them may repeat others.
   void note_loops(const Scene& scene) {
     on_loop_ = joints_on_loops(scene);
@@ -142,6 +162,7 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps {
                        kFewCollidingBodies);
   }
 
+  StateOwner owner_;
   System system_;
   const Integrator integrator_;
   double tolerance_;  // of an adaptive method

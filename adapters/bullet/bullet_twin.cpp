@@ -24,6 +24,7 @@
 #include "adapters/bullet/bullet_turn.h"
 #include "adapters/bullet/bullet_twin_joints.h"
 #include "core/engine/option_values.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -105,6 +106,7 @@ class BulletTwin : public Stepper {
     }
   }
   std::string solver_warning() const override { return joints_ ? joints_->warning() : ""; }
+  void archive_state(StateArchive& archive) override { archive(time_slow_); }
 
  private:
   bool sleeps(std::size_t i) const { return may_sleep_ && time_slow_[i] > kTimeToSleep; }

@@ -215,6 +215,8 @@ class ReducedTwin : public Stepper {
     }
   }
 
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
+
   void step(MutableBodyColumns state, double t, double dt) override {
     find_accelerations(state, t, dt);
     for (std::size_t i = 0; i < state.size(); ++i) before_[i] = after_[i] = motion_of(state, i);

@@ -56,6 +56,7 @@ class BrokenWorld : public World, public ReportsContacts {
   Capabilities capabilities() override {
     Capabilities can = world_->capabilities();
     can.remote = nullptr;
+    can.state = nullptr;  // this world has a state of its own
     if (can.contacts) can.contacts = this;
     return can;
   }

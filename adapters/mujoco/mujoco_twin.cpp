@@ -52,6 +52,7 @@ class ImplicitTwin : public Stepper {
       if (!system_.bodies[i].fixed) advance(state, i, dt);
     }
   }
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
 
  private:
   using Slope = Eigen::Matrix<double, 6, 6>;  // of the forces, in a body's velocity in W and angular velocity in B
@@ -109,6 +110,7 @@ class Rk4Twin : public Stepper {
     }
     advance(state, sums_, dt);
   }
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
 
  private:
   static void add(Rates& sum, const Rates& rates, double weight) {

@@ -41,6 +41,7 @@ class OdeTwin : public Stepper {
     }
   }
   std::string solver_warning() const override { return joints_ ? joints_->warning() : ""; }
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
 
  private:
   void kick(MutableBodyColumns state, std::size_t i, double dt) const {

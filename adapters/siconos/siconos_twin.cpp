@@ -46,6 +46,7 @@ class SiconosTwin : public Stepper {
   void step(MutableBodyColumns state, double t, double dt) override {
     system_.loads.for_each_smooth_part(t, dt, [&](double from, double length) { step_part(state, from, length); });
   }
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
 
  private:
   // Timed loads are constant over the step.

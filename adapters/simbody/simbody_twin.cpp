@@ -36,6 +36,8 @@ class SimbodyTwin : public Stepper {
     });
   }
 
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
+
  protected:
   using State = SimbodyCoordinates::State;
   virtual void advance(State& state, double h) = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/engine/state_archive.h"
+
 namespace rigor {
 namespace {
 
@@ -31,6 +33,14 @@ const std::vector<std::pair<int, int>>& NeighbourList::overlaps(const Bodies& bo
     if (overlap(a, b, state)) pairs_.emplace_back(a, b);
   }
   return pairs_;
+}
+
+void NeighbourList::archive_state(StateArchive& archive, Columns& spheres) {
+  archive(slack_, steps_to_hold_, steps_held_);
+  if (steps_held_ == 0) return;  // nothing has been searched for
+  archive.each(boxes_, [&](Aabb& box) { archive(box.low, box.high); });
+  for (int axis = 0; axis < 3; ++axis) archive.numbers(spheres.column(kFoundAt + axis), spheres.stride());
+  if (archive.restores()) near_ = &broad_phase_.overlaps(boxes_);
 }
 
 bool NeighbourList::overlap(int a, int b, BodyColumns state) const {

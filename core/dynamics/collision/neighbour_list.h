@@ -13,6 +13,8 @@ struct Ball {
   double radius;  // m
 };
 
+class StateArchive;
+
 class NeighbourList {
  public:
   explicit NeighbourList(std::vector<Ball> balls);
@@ -20,6 +22,9 @@ class NeighbourList {
   // Each pair (first < second by their place among the balls) that overlaps, in ascending order. Meant to be called
   // once a step. `spheres`: columns of SphereColumn, of which kFoundAt is kept here.
   const std::vector<std::pair<int, int>>& overlaps(const Bodies& bodies, BodyColumns state, Columns& spheres);
+
+  // Restores the neighbours that were found, and not only which spheres overlap. `spheres` as in overlaps().
+  void archive_state(StateArchive& archive, Columns& spheres);
 
  private:
   bool overlap(int a, int b, BodyColumns state) const;

@@ -14,6 +14,7 @@
 #include "core/dynamics/integrators/dormand_prince_tableau.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/model/motion_equations.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -64,6 +65,14 @@ class Adams : public Stepper {
     });
     write(state);
     last_.ended(state, t + dt, dt);
+  }
+
+  void archive_state(StateArchive& archive) override {
+    archive(y_, older_predictor_, older_corrector_, known_values_, known_, stage_, last_, dt_);
+    if (archive.restores()) {  // then the newest rates stand first
+      for (std::size_t s = 0; s < kAdamsRates; ++s) newest_first_[s] = rates_[s].data();
+    }
+    for (double* rates : newest_first_) archive.numbers(rates, table_size());
   }
 
  private:

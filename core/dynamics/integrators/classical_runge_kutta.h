@@ -18,6 +18,7 @@ class ClassicalRungeKutta : public Stepper {
  public:
   ClassicalRungeKutta(const StepperParts& parts, OrientationChart chart);
   void step(MutableBodyColumns state, double t, double dt) override;
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
 
  private:
   void smooth_part(MutableBodyColumns state, double t, double dt);

@@ -15,6 +15,10 @@ class Continuation {
   bool goes_on(BodyColumns state, double t, double dt, const Loads& loads, double oldest) const;
   // Nothing is remembered before the first call.
   void ended(BodyColumns state, double t, double dt) { end_ = state, t_ = t, dt_ = dt; }
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive(end_, t_, dt_);
+  }
 
  private:
   BodyTable end_;

@@ -14,6 +14,7 @@
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/motion_equations.h"
 #include "core/engine/option_values.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -51,6 +52,7 @@ class DormandPrince : public Stepper {
   }
 
   std::string solver_warning() const override { return solver_warning_; }
+  void archive_state(StateArchive& archive) override { archive(is_beyond_, solver_warning_); }
 
  private:
   // Advances y_ over [t, t + length] in equal steps, and chooses their number again after each of them.

@@ -22,6 +22,8 @@ class ExplicitEuler : public Stepper {
     if (parts_.contact) parts_.contact->resolve(state);
   }
 
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
+
  private:
   StepperParts parts_;
   EulerPasses passes_;

@@ -18,6 +18,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/integrators/phi_functions.h"
 #include "core/dynamics/model/loads/load_jacobian.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -54,12 +55,18 @@ struct Frame {
   Mat12 linear = Mat12::Zero(), exponential = Mat12::Identity();
   Weights behind;
   std::array<Weights, kNodes - 1> starting;  // of the first three steps, through the first four instants
+
+  void archive_state(StateArchive& archive) {
+    archive(position, orientation, inverse_inertia_W, inertia_W, linear, exponential, behind, starting);
+  }
 };
 
 // What is known at an instant.
 struct Instant {
   Vec12 u = Vec12::Zero(), rest = Vec12::Zero();  // rest: g
   Wrench wrench;
+
+  void archive_state(StateArchive& archive) { archive(u, rest, wrench.force, wrench.torque); }
 };
 
 class ExponentialAdams : public Stepper {
@@ -95,6 +102,10 @@ class ExponentialAdams : public Stepper {
   }
 
   std::string solver_warning() const override { return solver_warning_; }
+  void archive_state(StateArchive& archive) override {
+    archive(last_, frames_, instants_, newest_, known_, ahead_, scratch_, solver_warning_);
+    switching_->archive_state(archive);
+  }
 
  private:
   using BodiesAt = std::vector<Instant>;

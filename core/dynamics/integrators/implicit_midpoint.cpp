@@ -11,6 +11,7 @@
 #include "core/base/rotation_vector.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/model/block_system.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -34,6 +35,7 @@ class ImplicitMidpoint : public Stepper {
   }
 
   std::string solver_warning() const override { return solver_warning_; }
+  void archive_state(StateArchive& archive) override { archive(solver_warning_); }
 
  private:
   // Newton's method on middle_'s velocities; solver_warning_ says if it did not arrive.

@@ -15,6 +15,7 @@
 namespace rigor {
 
 class Joints;
+class StateArchive;
 
 // Steps one system. A stepper may use its history only if the state and the instant are those of its last step's end.
 class Stepper {
@@ -24,6 +25,8 @@ class Stepper {
   virtual void step(MutableBodyColumns state, double t, double dt) = 0;
   // Why the last step is less accurate than the method promises; empty if it is not.
   virtual std::string solver_warning() const { return ""; }
+  // Saves or restores what the next steps depend on beside the state of the bodies (state_archive.h).
+  virtual void archive_state(StateArchive& archive) = 0;
 };
 
 // The error that an adaptive method allows in each inner step; see MotionEquations::relative_size().

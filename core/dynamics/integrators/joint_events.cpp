@@ -6,6 +6,8 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
+#include "core/engine/state_archive.h"
+
 namespace rigor {
 namespace {
 
@@ -105,6 +107,11 @@ double JointEvents::root(const Function& f, double h, double at_end) const {
   std::uintmax_t most = 100;
   const auto near = [h](double a, double b) { return std::abs(b - a) <= kTimeTolerance * h; };
   return boost::math::tools::toms748_solve(f, 0.0, h, at_start, at_end, near, most).second;
+}
+
+void JointEvents::archive_state(StateArchive& archive) {
+  archive(stops_, solver_warning_);
+  inner_->archive_state(archive);
 }
 
 void JointEvents::warn(const std::string& what) {

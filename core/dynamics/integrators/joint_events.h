@@ -19,6 +19,7 @@ class JointEvents : public Stepper {
 
   void step(MutableBodyColumns state, double t, double dt) override;
   std::string solver_warning() const override { return solver_warning_; }
+  void archive_state(StateArchive& archive) override;
 
  private:
   // Takes the settled state from t until the first event, at most by h, and returns by how much.

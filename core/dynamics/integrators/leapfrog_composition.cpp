@@ -1,5 +1,7 @@
 #include "core/dynamics/integrators/leapfrog_composition.h"
 
+#include "core/engine/state_archive.h"
+
 namespace rigor {
 
 LeapfrogComposition::LeapfrogComposition(const StepperParts& parts, std::span<const double> weights)
@@ -18,6 +20,8 @@ void LeapfrogComposition::step(MutableBodyColumns state, double t, double dt) {
                                            [&](double from, double length) { smooth_part(state, from, length); });
   kick_.end(state);
 }
+
+void LeapfrogComposition::archive_state(StateArchive& archive) { archive(solver_warning_); }
 
 // No body knows of another: each block takes the whole step.
 void LeapfrogComposition::free_step(MutableBodyColumns state, double dt) {

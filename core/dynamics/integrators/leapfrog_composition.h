@@ -19,6 +19,7 @@ class LeapfrogComposition : public Stepper {
   LeapfrogComposition(const StepperParts& parts, std::span<const double> weights);
   void step(MutableBodyColumns state, double t, double dt) override;
   std::string solver_warning() const override { return solver_warning_; }
+  void archive_state(StateArchive& archive) override;
 
  private:
   void free_step(MutableBodyColumns state, double dt);

@@ -9,6 +9,7 @@
 // A. Witkin, Large steps in cloth simulation, 1998.)
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/model/block_system.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -33,6 +34,7 @@ class LinearlyImplicitEuler : public Stepper {
   }
 
   std::string solver_warning() const override { return solver_warning_; }
+  void archive_state(StateArchive& archive) override { archive(solver_warning_); }
 
  private:
   void assemble(BodyColumns state, double t, double dt) {

@@ -7,6 +7,7 @@
 #include "core/dynamics/integrators/constrained_drift.h"
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/integrators/symmetric_kick.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -31,6 +32,7 @@ class MoserVeselov : public Stepper {
   }
 
   std::string solver_warning() const override { return solver_warning_; }
+  void archive_state(StateArchive& archive) override { archive(solver_warning_); }
 
  private:
   void kick(MutableBodyColumns state, double t, double dt) {

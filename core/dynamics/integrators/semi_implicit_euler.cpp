@@ -42,6 +42,8 @@ class SemiImplicitEuler : public Stepper {
     bodies.for_each_block([&](const Bodies& block) { passes_.drift(block, state, dt); });
   }
 
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
+
  private:
   void constrained_step(MutableBodyColumns state, const double* wrench, double dt) {
     const BodyConstants& bodies = parts_.system.constants;

@@ -37,6 +37,8 @@ class VelocityVerlet : public Stepper {
     second_kick(state, t, dt);
   }
 
+  void archive_state(StateArchive&) override {}  // nothing outlives a step
+
  private:
   void constrained_step(MutableBodyColumns state, const double* wrench, double t, double dt) {
     const BodyConstants& bodies = parts_.system.constants;

@@ -64,6 +64,12 @@ class BlockCholesky {
     solve(x, order_.first_of_component[component], order_.first_of_component[component + 1]);
   }
 
+  // Which rows count, which later factorisations keep, and what is known of the last one.
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive(in_use_, rank_, kept_, has_redundant_, smallest_pivot_, joint_of_smallest_);
+  }
+
  private:
   void solve(std::vector<Vec6>& x, std::size_t first, std::size_t last) const;
   void lay_out();

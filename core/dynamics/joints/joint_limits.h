@@ -34,6 +34,11 @@ class JointLimits {
   Value at(std::size_t k, BodyColumns state, double since = 0) const;
   void note(BodyColumns state, double since);  // the same
 
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive.each(limits_, [&](Limit& limit) { archive(limit.x, limit.rate); });
+  }
+
  private:
   struct Limit {
     JointCoordinate coordinate;

@@ -6,6 +6,7 @@
 
 #include "core/dynamics/joints/joint_limits.h"
 #include "core/dynamics/model/contact_scales.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -80,6 +81,16 @@ void JointStops::read_settled() {
   now_ = settled_at_;
   for (Stop& stop : stops_)
     stop.x = stop.settled_x, stop.rate = stop.settled_rate, stop.acceleration = stop.settled_acceleration;
+}
+
+// Rows and pushes are among the joints' and the loads' own state.
+void JointStops::archive_state(StateArchive& archive) {
+  archive(effort_tolerance_, settled_at_, now_);
+  archive.each(stops_, [&](Stop& stop) {
+    archive(stop.x, stop.rate, stop.settled_x, stop.settled_rate, stop.acceleration, stop.settled_acceleration,
+            stop.effort, stop.at, stop.drive, stop.push, stop.bounce);
+    archive.place_in(stop.motors, stop.motor);
+  });
 }
 
 double JointStops::next_switch(double t, double end) const {

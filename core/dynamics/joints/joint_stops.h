@@ -15,6 +15,8 @@
 
 namespace rigor {
 
+class StateArchive;
+
 class JointStops {
  public:
   // `motors` alone where limits are a contact method's, which then asks settle_motors() and not settle().
@@ -29,6 +31,7 @@ class JointStops {
   // Takes x and x' from a state, `since` [s] after the last; x is in the turn nearest to where x' has led.
   void read(BodyColumns state, double since);
   void read_settled();  // the values at which settle() left them
+  void archive_state(StateArchive& archive);
 
   // Handles one instant: impacts change velocities, then the active limits and motors are determined. A bounce that
   // would end within `shortest_flight` [s] is suppressed. Returns false if there is no consistent answer.

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/dynamics/kernels/kernels.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -79,6 +80,16 @@ void Joints::end_step(BodyColumns state) {
           fmt::format("{} has turned by half a turn, at which the angle of its spring jumps", names_[hinge.joint]);
     hinge.x = x;
   }
+}
+
+void Joints::archive_state(StateArchive& archive) {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    JointRow& joint = rows_.joint(k);
+    archive(joint.row, joint.target, joint.rate);
+  }
+  archive(factor_, rotor_, rotor_impulse_, warning_);
+  archive.each(sprung_, [&](SprungHinge& hinge) { archive(hinge.x); });
+  archive.each(three_hinges_, [&](ThreeHinges& hinges) { archive(hinges.x); });
 }
 
 int Joints::rows() const {

@@ -18,6 +18,8 @@
 
 namespace rigor {
 
+class StateArchive;
+
 class Joints : public ConstraintForces {
  public:
   // The system must outlive it.
@@ -83,6 +85,7 @@ class Joints : public ConstraintForces {
   // Notes where a hinge with a spring has turned by half a turn, at which the angle that the spring goes by jumps; and
   // where three hinges in series pass a position in which their angles are not unique.
   void end_step(BodyColumns state);
+  void archive_state(StateArchive& archive);
   std::string warning() const { return at_start_.empty() ? warning_ : at_start_; }
   // Supports trial steps: read the notes, try a step, and restore them if the step is discarded.
   const std::string& noted() const { return warning_; }

@@ -18,6 +18,11 @@ class SingularPassages {
   const std::vector<double>& times() const { return times_; }  // s, of the first passages
   std::string text() const;                                    // "at 0.2146 s, 0.985 s"; empty if there are none
 
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive(before_.t, before_.pivot, last_.t, last_.pivot, known_, times_, count_);
+  }
+
  private:
   struct Instant {
     double t = 0, pivot = 1;

@@ -9,6 +9,7 @@
 
 #include "core/dynamics/collision/neighbour_list.h"
 #include "core/dynamics/contact/contact_method.h"
+#include "core/engine/state_archive.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -60,6 +61,8 @@ class CourseContact : public Contact {
     for (const auto& [a, b] : neighbours_.overlaps(system_.constants.all(), state, spheres_))
       resolve_balls(balls_[a], balls_[b], state);
   }
+
+  void archive_state(StateArchive& archive) { neighbours_.archive_state(archive, spheres_); }
 
  private:
   // A plane is fixed: where its own point lies does not matter.
@@ -142,6 +145,10 @@ class CourseStepper : public ContactStepper {
 
   void step(MutableBodyColumns state, double t, double dt) override { stepper_->step(state, t, dt); }
   std::string solver_warning() const override { return stepper_->solver_warning(); }
+  void archive_state(StateArchive& archive) override {
+    archive(contact_);
+    stepper_->archive_state(archive);
+  }
 
  private:
   CourseContact contact_;

@@ -40,6 +40,11 @@ class ContactPoints {
   const JointLimits& limits() const { return limits_; }
   // The state from which hinges are counted: one that the run has reached, `since` [s] after the last.
   void note_turns(BodyColumns state, double since) { limits_.note(state, since); }
+  // The turns alone: all else follows from the bodies' state.
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive(limits_);
+  }
   // The pairs that can touch while the bodies go from one state to the other within dt, with accelerations within the
   // bounds, one for each body.
   const std::vector<std::pair<int, int>>& candidates(BodyColumns from, BodyColumns to, double dt,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/dynamics/contact/event/impacts.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -41,6 +42,15 @@ double CrowdedSteps::longest(double dt) const {
 
 std::string CrowdedSteps::wording() const {
   return fmt::format("{} inelastic steps of first order, {:.3g} s in all", steps_, seconds_);
+}
+
+// Of the last step's contacts, what impulse_before() needs.
+void CrowdedSteps::archive_state(StateArchive& archive) {
+  archive(length_before_, seconds_, steps_, solver_warning_);
+  archive.resized(touching_);
+  for (ContactPoint& point : touching_) archive(point.a, point.b, point.feature, point.cone.frame, point.cone.impulse);
+  if (archive.restores()) impulses_.assign(touching_.size(), Vec3::Zero());
+  stepper_->archive_state(archive);
 }
 
 double CrowdedSteps::short_of_passing(BodyColumns state, double h) const {

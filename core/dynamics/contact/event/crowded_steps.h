@@ -31,6 +31,7 @@ class CrowdedSteps {
   const std::string& solver_warning() const { return solver_warning_; }
   // The number of these steps so far.
   std::string wording() const;
+  void archive_state(StateArchive& archive);
 
  private:
   double short_of_passing(BodyColumns state, double h) const;

@@ -28,6 +28,7 @@
 #include "core/dynamics/contact/event/event_options.h"
 #include "core/dynamics/contact/event/persistent/persistent_contact.h"
 #include "core/engine/option_values.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -106,6 +107,12 @@ class EventStepper : public ContactStepper {
   ReportsContacts* contact_reports() override { return &forces_; }
 
   std::string solver_warning() const override { return solver_warning_; }
+  void archive_state(StateArchive& archive) override {
+    archive(saved_, crowded_from_, are_many_, longest_, last_damping_, is_smooth_, solver_warning_);
+    archive.resized(ties_);
+    for (ContactTie& tie : ties_) archive(tie.time, tie.pairs);
+    archive(contact_points_, persistent_contact_, crowded_);
+  }
   bool was_smooth() const override { return is_smooth_; }
   long work() const override { return persistent_contact_.passes(); }
   void watch_ties() override { impacts_.watch_ties(); }

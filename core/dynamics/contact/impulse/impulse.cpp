@@ -24,6 +24,7 @@
 #include "core/dynamics/contact/impulse/turning_friction.h"
 #include "core/dynamics/kernels/contact_kernels.h"
 #include "core/engine/engine_failure.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -92,6 +93,11 @@ class ImpulseStepper : public ContactStepper {
   std::string solver_warning() const override {
     const std::string warning = integrator_->solver_warning();
     return warning.empty() ? manifolds_.failure() : warning;
+  }
+
+  void archive_state(StateArchive& archive) override {
+    archive(parameters_.h, manifolds_, turning_);
+    integrator_->archive_state(archive);
   }
 
   std::optional<double> sub_step() const override {

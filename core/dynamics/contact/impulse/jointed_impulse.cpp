@@ -9,6 +9,7 @@
 #include "core/dynamics/contact/impulse/jointed_rows.h"
 #include "core/dynamics/contact/impulse/step_impulses.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -48,6 +49,11 @@ class JointedImpulseStepper : public ContactStepper {
   std::string solver_warning() const override {
     const std::string warning = integrator_->solver_warning();
     return warning.empty() ? manifolds_.failure() : warning;
+  }
+
+  void archive_state(StateArchive& archive) override {
+    archive(parameters_.h, manifolds_, rows_);
+    integrator_->archive_state(archive);
   }
 
   std::optional<double> sub_step() const override {

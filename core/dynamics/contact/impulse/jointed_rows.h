@@ -33,6 +33,13 @@ class JointedRows {
   void apply_restitution(BodyColumns state);
   // The change of a body's velocity (v, w) since load_velocities().
   Vec6 change(std::size_t body) const { return velocities_[body] - loaded_[body]; }
+  // Of limits and motors. Impulses of contacts are among the contacts that they were stored to.
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive.each(coordinates_, [&](Coordinate& at) {
+      archive(at.x, at.lower_impulse, at.upper_impulse, at.motor_impulse, at.speed, at.most_impulse);
+    });
+  }
 
  private:
   struct Response {  // of a body's velocity, to unit impulses of the row's directions

@@ -7,6 +7,7 @@
 
 #include "core/dynamics/collision/coincident.h"
 #include "core/dynamics/contact/impulse/free_motion.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -331,6 +332,18 @@ std::vector<ContactConstraint>& Manifolds::find(BodyColumns state, double dt) {
   });
   is_first_ = false;
   return constraints_;
+}
+
+// The pairs follow from the fat boxes. Only the constraints of the last update hand their impulses on.
+void Manifolds::archive_state(StateArchive& archive) {
+  std::string failure = this->failure();
+  archive(is_first_, overlaps_at_start_, constraints_, failure);
+  for (Part& part : parts_) part.failure.clear();
+  parts_.front().failure = failure;
+  if (is_first_) return;
+  fat_boxes_.resize(colliders_.size());
+  archive.each(fat_boxes_, [&](Aabb& box) { archive(box.low, box.high); });
+  if (archive.restores()) pairs_ = &broad_phase_.overlaps(fat_boxes_);
 }
 
 std::string Manifolds::failure() const {

@@ -27,7 +27,14 @@ struct ContactConstraint {
   double gap;                            // m
   double normal_impulse = 0;             // N s
   Vec3 friction_impulse = Vec3::Zero();  // N s, in W
+
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive(a, b, feature, is_deep, friction, restitution, normal, arm_a, arm_b, gap, normal_impulse, friction_impulse);
+  }
 };
+
+class StateArchive;
 
 class Manifolds {
  public:
@@ -54,6 +61,7 @@ class Manifolds {
   std::vector<ContactConstraint>& find(BodyColumns state, double dt);
   // Two bodies that have come to overlap deeply; empty if there are none.
   std::string failure() const;
+  void archive_state(StateArchive& archive);
 
  private:
   enum class Kind : char { ball, plane, other };

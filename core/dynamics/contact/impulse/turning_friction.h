@@ -28,6 +28,12 @@ class TurningFriction {
   // One sweep, with the normal impulses that the rows have now.
   void solve(const SolverBodies& bodies);
 
+  // A restored row hands its impulse on, and is then replaced.
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive(rows_);
+  }
+
  private:
   struct Row {
     int a, b;  // bodies
@@ -37,6 +43,10 @@ class TurningFriction {
     const double* normal_impulse;  // N s, of the contact's row
     Mat3 inertia_a, inertia_b;     // 1/(kg m²), inverse, in W
     Vec3 impulse = Vec3::Zero();   // N m s on a, in W
+    template <typename Archive>
+    void archive_state(Archive& archive) {
+      archive(a, b, feature, impulse);
+    }
   };
   static void turn(const Row& row, const Vec3& impulse, const SolverBodies& bodies);
 

@@ -15,6 +15,7 @@
 #include "core/dynamics/kernels/kernels.h"
 #include "core/engine/columns.h"
 #include "core/engine/engine_failure.h"
+#include "core/engine/state_archive.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -129,6 +130,10 @@ class SoftStepper : public ContactStepper {
   }
 
   std::string solver_warning() const override { return integrator_->solver_warning(); }
+  void archive_state(StateArchive& archive) override {
+    archive(sub_step_);
+    integrator_->archive_state(archive);
+  }
   std::optional<double> sub_step() const override { return sub_step_; }
   SettingsInForce settings_in_force() const override {
     return {{"integrator in contact", in_contact_.name},

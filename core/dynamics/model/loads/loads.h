@@ -101,6 +101,14 @@ class Loads {
   const std::vector<JointDrive>& drives() const { return drives_; }
   bool empty() const { return springs_.empty() && forces_.empty() && drives_.empty(); }
   bool damped() const { return damped_; }
+  // Of motors that push, and of servos.
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive.each(drives_, [&](JointDrive& drive) {
+      archive(drive.push);
+      archive.each(drive.servos, [&](ServoDrive& servo) { archive(servo); });
+    });
+  }
 
  private:
   void add_drive(const Scene& scene, std::size_t joint);

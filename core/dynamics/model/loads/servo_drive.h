@@ -32,6 +32,11 @@ class ServoDrive {
   double next_sample(double t, double end) const;
   double next_switch(double t, double end) const { return motor_.next_switch(t, end); }
 
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive(side_, held_, last_sample_);
+  }
+
  private:
   const Servo& servo() const { return *motor_.servo; }
   double unbounded(double x, double rate, double t) const { return servo().unbounded(x, rate, t, turns_); }

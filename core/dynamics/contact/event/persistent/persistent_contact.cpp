@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/engine/option_values.h"
+#include "core/engine/state_archive.h"
 
 namespace rigor {
 namespace {
@@ -359,6 +360,18 @@ bool PersistentContact::stop_with_friction(MutableBodyColumns state, double most
   }
   if (!is_small) copy_columns(before, state);
   return is_small;
+}
+
+// Of the points, what select_points() takes over from them. A step chooses all else anew.
+void PersistentContact::archive_state(StateArchive& archive) {
+  for (std::vector<PersistentPoint>* points : {&persistent_.points(), &resting_points_}) {
+    archive.resized(*points);
+    for (PersistentPoint& point : *points)
+      archive(point.contact.a, point.contact.b, point.contact.feature, point.frame, point.force, point.force_in_cone);
+  }
+  archive(noted_, passes_, follows_turning_slip_, fastest_damping_);
+  for (Stepper* stepper : {free_stepper_.get(), contact_stepper_.get(), adaptive_stepper_.get()})
+    stepper->archive_state(archive);
 }
 
 std::string PersistentContact::solver_warning() const { return stepper().solver_warning(); }

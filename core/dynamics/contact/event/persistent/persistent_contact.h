@@ -76,6 +76,7 @@ class PersistentContact {
   long passes() const { return passes_; }
   // Failures of closing gaps and stopping points since the last call; empty if there were none.
   std::string take_projection_warning() { return projection_.take_solver_warning(); }
+  void archive_state(StateArchive& archive);
   // Failures of the last advance; empty if there were none.
   std::string solver_warning() const;
 

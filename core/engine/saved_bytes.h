@@ -1,0 +1,54 @@
+// Saved states of the core and of adapters: bytes that name what they belong to, with a checksum. A state of another
+// engine, version, method or scene is refused before anything changes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/engine/engine.h"
+#include "core/engine/state_archive.h"
+
+namespace rigor {
+
+class SavedBytes : public SavedState {
+ public:
+  explicit SavedBytes(std::string bytes) : bytes_(std::move(bytes)) {}
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+// What a state belongs to.
+class StateOwner {
+ public:
+  StateOwner(std::string engine, std::string version, const Scene& scene, const Settings& settings);
+
+  // Both call `visit` with an archive. restore() throws InputError for a state that is damaged or of another owner.
+  template <typename Visit>
+  std::unique_ptr<SavedState> save(const Visit& visit) const {
+    StateArchive archive;
+    visit(archive);
+    return sealed(archive.bytes());
+  }
+  template <typename Visit>
+  void restore(const SavedState& state, const Visit& visit) const {
+    StateArchive archive(opened(state));
+    visit(archive);
+    archive.end();
+  }
+
+ private:
+  std::unique_ptr<SavedState> sealed(const std::string& state) const;
+  std::string_view opened(const SavedState& state) const;
+
+  std::string engine_, version_, run_;
+  std::uint64_t scene_;
+};
+
+// For tests of damaged content: the same bytes with a checksum that fits them.
+std::string with_new_checksum(std::string bytes);
+
+}  // namespace rigor
