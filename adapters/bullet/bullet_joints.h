@@ -40,6 +40,11 @@ class Joints {
   void set_for_step(double t, double dt);
 
   bool empty() const { return constraints_.empty(); }
+  // The turns of hinges. Bullet begins each step without impulses of its constraints.
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive.each(winding_, [&](Winding& at) { archive(at.angle); });
+  }
   // Applies from the next step on, to joints without limits, because Bullet keeps a slider's limits in a second
   // constraint.
   void ask_for_reactions();

@@ -8,6 +8,7 @@
 #include "adapters/bullet/bullet_matched.h"
 #include "adapters/bullet/bullet_options.h"
 #include "adapters/bullet/bullet_pair_laws.h"
+#include "adapters/bullet/bullet_state.h"
 #include "adapters/common/option_values.h"
 
 namespace rigor {
@@ -55,7 +56,8 @@ std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const std::stri
 }  // namespace
 
 BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
-    : laws_(scene),
+    : owner_("bullet", fmt::format("{}", btGetVersion()), scene, settings),
+      laws_(scene),
       loads_(scene),
       matched_(settings.track == Track::matched),
       bounces_(needs(scene, Feature::restitution)),
@@ -214,6 +216,24 @@ void BulletWorld::read(Snapshot& out) const {
 
 std::vector<ReportedReaction> BulletWorld::reactions() const {
   return clock_.time() > 0 ? joints_->reactions() : std::vector<ReportedReaction>();
+}
+
+std::unique_ptr<SavedState> BulletWorld::save() const {
+  // An archive that saves changes nothing.
+  return owner_.save([this](StateArchive& archive) { const_cast<BulletWorld*>(this)->archive_state(archive); });
+}
+
+void BulletWorld::restore(const SavedState& state) {
+  owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
+}
+
+void BulletWorld::archive_state(StateArchive& archive) {
+  unsigned long seed = solver_->getRandSeed();
+  archive(clock_, last_dt_, warning_, loads_, *joints_, seed);
+  solver_->setRandSeed(seed);
+  bullet::archive_bodies(archive, world_);
+  bullet::archive_contacts(archive, world_);
+  bullet::archive_sleep(archive, world_);
 }
 
 const btRigidBody* BulletWorld::first_moving() const {

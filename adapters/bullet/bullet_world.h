@@ -14,12 +14,12 @@
 #include "adapters/bullet/bullet_joints.h"
 #include "adapters/common/external_loads.h"
 #include "core/engine/clock.h"
-#include "core/engine/engine.h"
+#include "core/engine/saved_bytes.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
 
-class BulletWorld : public World, public ReportsReactions, public ReportsContacts {
+class BulletWorld : public World, public ReportsReactions, public ReportsContacts, public SavesState {
  public:
   BulletWorld(const Scene& scene, const Settings& settings);
   BulletWorld(const BulletWorld&) = delete;
@@ -29,11 +29,13 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return warning_; }
-  Capabilities capabilities() override { return {.reactions = this, .contacts = this}; }
+  Capabilities capabilities() override { return {.reactions = this, .contacts = this, .state = this}; }
   void ask_for_reactions() override { joints_->ask_for_reactions(); }
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override {}  // Bullet always keeps them
   std::vector<ReportedContact> contacts() const override { return bullet::contacts_of(dispatcher_, last_dt_); }
+  std::unique_ptr<SavedState> save() const override;
+  void restore(const SavedState& state) override;
 
  private:
   struct Row {
@@ -44,6 +46,7 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
     BodyState standing;            // of a fixed body
   };
 
+  void archive_state(StateArchive& archive);
   void apply(const Settings& settings);
   void match(const Scene& scene, const Settings& settings);
   void keep_apart(const Scene& scene);
@@ -54,6 +57,7 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
   const btRigidBody* first_moving() const;
   std::string restitution_in_words() const;
 
+  StateOwner owner_;
   ContactLaws laws_;
   ExternalLoads loads_;
   bool matched_, bounces_, is_soft_;

@@ -17,6 +17,12 @@ class ExternalLoads {
   // next call.
   const Wrenches& over_step(const World& world, double dt);
 
+  // Of servos.
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive(loads_);
+  }
+
  private:
   Loads loads_;
   double shortest_period_;  // s, of servos

@@ -21,6 +21,7 @@
 #include "adapters/dart/dart_options.h"
 #include "core/engine/clock.h"
 #include "core/engine/engine_failure.h"
+#include "core/engine/saved_bytes.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -74,7 +75,7 @@ void refuse_what_features_do_not_say(const Scene& scene, const SpanningTree& tre
   }
 }
 
-class DartWorld : public World, public ReportsReactions, public ReportsContacts {
+class DartWorld : public World, public ReportsReactions, public ReportsContacts, public SavesState {
  public:
   DartWorld(const Scene& scene, const Settings& settings);
 
@@ -83,13 +84,16 @@ class DartWorld : public World, public ReportsReactions, public ReportsContacts 
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
   // DART works out what passes to a body before its constraints get their impulses. Loops are constraints.
-  Capabilities capabilities() override { return {.reactions = this, .contacts = this}; }
+  Capabilities capabilities() override { return {.reactions = this, .contacts = this, .state = this}; }
   void ask_for_reactions() override { is_asked_ = !has_loops_; }
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override {}  // DART always keeps them
   std::vector<ReportedContact> contacts() const override;
+  std::unique_ptr<SavedState> save() const override;
+  void restore(const SavedState& state) override;
 
  private:
+  void archive_state(StateArchive& archive);
   void set_solver(const Settings& settings);
   void set_constants(const Settings& settings);
   void close_loops(const Scene& scene, const SpanningTree& tree);
@@ -101,6 +105,7 @@ class DartWorld : public World, public ReportsReactions, public ReportsContacts 
     return static_cast<const con::BoxedLcpConstraintSolver&>(*world_->getConstraintSolver());
   }
 
+  StateOwner owner_;
   std::vector<bool> fixed_;
   std::vector<BodyState> standing_;
   ExternalLoads loads_;
@@ -121,7 +126,8 @@ class DartWorld : public World, public ReportsReactions, public ReportsContacts 
 };
 
 DartWorld::DartWorld(const Scene& scene, const Settings& settings)
-    : loads_(external_part(scene, spanning_tree(scene))),
+    : owner_("dart", DART_VERSION, scene, settings),
+      loads_(external_part(scene, spanning_tree(scene))),
       can_touch_(anything_can_touch(scene)),
       matched_(settings.track == Track::matched),
       edges_(scene),
@@ -260,6 +266,27 @@ std::vector<ReportedContact> DartWorld::contacts() const {
     contacts.push_back({body_of(at.collisionObject2), body_of(at.collisionObject1), at.point, at.normal,
                         -at.penetrationDepth, at.force});
   return contacts;
+}
+
+std::unique_ptr<SavedState> DartWorld::save() const {
+  // An archive that saves changes nothing.
+  return owner_.save([this](StateArchive& archive) { const_cast<DartWorld*>(this)->archive_state(archive); });
+}
+
+void DartWorld::restore(const SavedState& state) {
+  owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
+}
+
+// Coordinates and speeds, as DART's own Skeleton::Configuration has them. DART keeps the multipliers of limits, motors
+// and loops to itself; the method pgs begins its sweeps with them.
+void DartWorld::archive_state(StateArchive& archive) {
+  archive(clock_, lost_, solver_warning_, loads_);
+  for (const auto& skeleton : made_.skeletons) {
+    Eigen::VectorXd positions = skeleton->getPositions(), velocities = skeleton->getVelocities();
+    archive(positions, velocities);
+    if (!archive.restores()) continue;
+    skeleton->setPositions(positions), skeleton->setVelocities(velocities);
+  }
 }
 
 // A joint keeps a given speed, with a bounded effort, while a motor is on; DART forgets the command after the step.

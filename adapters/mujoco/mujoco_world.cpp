@@ -69,19 +69,11 @@ std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
   return fmt::format("solref {:g} {:g}, solimp {:g} {:g} {:g}", solref[0], solref[1], solimp[0], solimp[1], solimp[2]);
 }
 
-// Positions, velocities and the start of the solver's next iteration: nothing else outlives a step.
-struct MujocoState : SavedState {
-  Clock clock;
-  bool lost = false;
-  std::string solver_warning;
-  double time = 0;  // s
-  std::vector<mjtNum> positions, velocities, warm_start;
-};
-
 }  // namespace
 
 MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
-    : scene_(only_forces(scene)),
+    : owner_("mujoco", fmt::format("{}", mj_version()), scene, settings),
+      scene_(only_forces(scene)),
       tree_(spanning_tree(scene)),
       made_((mujoco_library::start(), mujoco_model(scene, tree_, settings))),
       data_(mj_makeData(made_.model.get())),
@@ -118,22 +110,22 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
 }
 
 std::unique_ptr<SavedState> MujocoWorld::save() const {
-  const mjModel& model = *made_.model;
-  auto state = std::make_unique<MujocoState>();
-  state->clock = clock_, state->lost = lost_, state->solver_warning = solver_warning_, state->time = data_->time;
-  state->positions.assign(data_->qpos, data_->qpos + model.nq);
-  state->velocities.assign(data_->qvel, data_->qvel + model.nv);
-  state->warm_start.assign(data_->qacc_warmstart, data_->qacc_warmstart + model.nv);
-  return state;
+  // An archive that saves changes nothing.
+  return owner_.save([this](StateArchive& archive) { const_cast<MujocoWorld*>(this)->archive_state(archive); });
 }
 
-void MujocoWorld::restore(const SavedState& saved) {
-  const auto& state = dynamic_cast<const MujocoState&>(saved);
-  clock_ = state.clock, lost_ = state.lost, solver_warning_ = state.solver_warning, data_->time = state.time;
-  std::copy(state.positions.begin(), state.positions.end(), data_->qpos);
-  std::copy(state.velocities.begin(), state.velocities.end(), data_->qvel);
-  std::copy(state.warm_start.begin(), state.warm_start.end(), data_->qacc_warmstart);
+void MujocoWorld::restore(const SavedState& state) {
+  owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
   is_step_in_data_ = false;  // the poses of jointed bodies are worked out when they are read
+}
+
+// Positions, velocities and the start of the solver's next iteration: nothing else of MuJoCo's outlives a step.
+void MujocoWorld::archive_state(StateArchive& archive) {
+  const auto size = [](int count) { return static_cast<std::size_t>(count); };
+  archive(clock_, lost_, solver_warning_, loads_, data_->time);
+  archive.numbers(data_->qpos, size(made_.model->nq));
+  archive.numbers(data_->qvel, size(made_.model->nv));
+  archive.numbers(data_->qacc_warmstart, size(made_.model->nv));
 }
 
 void MujocoWorld::step(double dt) {

@@ -6,7 +6,7 @@
 #include "adapters/common/external_loads.h"
 #include "adapters/mujoco/mujoco_model.h"
 #include "adapters/mujoco/mujoco_reactions.h"
-#include "core/engine/clock.h"
+#include "core/engine/saved_bytes.h"
 
 namespace rigor {
 
@@ -19,11 +19,8 @@ class MujocoWorld : public World, public ReportsReactions, public ReportsContact
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
   // MuJoCo keeps only the forces of the last stage of RK4. They are no mean over the step.
-  // A sampling servo holds its effort, which is not among MuJoCo's state.
   Capabilities capabilities() override {
-    return {.reactions = this,
-            .contacts = made_.model->opt.integrator == mjINT_RK4 ? nullptr : this,
-            .state = loads_.empty() && motors_.empty() ? this : nullptr};
+    return {.reactions = this, .contacts = made_.model->opt.integrator == mjINT_RK4 ? nullptr : this, .state = this};
   }
   std::unique_ptr<SavedState> save() const override;
   void restore(const SavedState& state) override;
@@ -33,12 +30,14 @@ class MujocoWorld : public World, public ReportsReactions, public ReportsContact
   std::vector<ReportedContact> contacts() const override;
 
  private:
+  void archive_state(StateArchive& archive);
   void apply_loads(double dt);
   void look_for_warnings();
   void note_reactions() const;
   void read_free(MutableBodyColumns out, std::size_t body) const;
   void read_jointed(MutableBodyColumns out, std::size_t body) const;
 
+  StateOwner owner_;
   Scene scene_;  // without its springs and joint springs, which MuJoCo has itself
   SpanningTree tree_;
   MujocoModel made_;

@@ -26,6 +26,11 @@ class OdeJoints {
   void set_cfm(double cfm);
 
   bool empty() const { return joints_.empty(); }
+  // The turns of hinges. All else is set before each step.
+  template <typename Archive>
+  void archive_state(Archive& archive) {
+    archive.each(joints_, [&](Held& held) { archive(held.angle); });
+  }
   // Applies from the next step on.
   void ask_for_reactions();
   std::vector<ReportedReaction> reactions() const;

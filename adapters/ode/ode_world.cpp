@@ -79,7 +79,8 @@ void refuse_infinite_friction_that_rolls(const Scene& scene) {
 }  // namespace
 
 OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
-    : laws_(scene),
+    : owner_("ode", dODE_VERSION, scene, settings),
+      laws_(scene),
       loads_(scene),
       can_touch_(anything_can_touch(scene)),
       matched_(settings.track == Track::matched),
@@ -154,6 +155,7 @@ void OdeWorld::add_part(const Body& body, const Shape& shape, const BodyPose& po
   dGeomSetData(geom, reinterpret_cast<void*>(index));
   dQuaternion q;
   if (moving) {
+    geoms_.push_back(geom);
     dGeomSetBody(geom, moving);
     if (!std::holds_alternative<Compound>(*body.shape)) return;
     copy_to(pose.orientation, q);

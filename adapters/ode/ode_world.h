@@ -13,7 +13,7 @@
 #include "adapters/ode/ode_hull.h"
 #include "adapters/ode/ode_joints.h"
 #include "core/engine/clock.h"
-#include "core/engine/engine.h"
+#include "core/engine/saved_bytes.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {
@@ -22,7 +22,7 @@ namespace rigor {
 // method `auto` leaves scenes of more than so many moving bodies that can touch to the sweeps.
 inline constexpr int kMostForWorldStep = 50;
 
-class OdeWorld : public World, public ReportsReactions, public ReportsContacts {
+class OdeWorld : public World, public ReportsReactions, public ReportsContacts, public SavesState {
  public:
   OdeWorld(const Scene& scene, const Settings& settings);
   ~OdeWorld() override;
@@ -33,13 +33,18 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts {
   void read(Snapshot& out) const override;
   SettingsInForce settings_in_force() const override;
   std::string solver_warning() const override { return solver_warning_; }
-  Capabilities capabilities() override { return {.reactions = this, .contacts = this}; }
+  Capabilities capabilities() override { return {.reactions = this, .contacts = this, .state = this}; }
   void ask_for_reactions() override { joints_->ask_for_reactions(); }
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override { reports_contacts_ = true; }
   std::vector<ReportedContact> contacts() const override;
+  std::unique_ptr<SavedState> save() const override;
+  void restore(const SavedState& state) override;
 
  private:
+  void archive_state(StateArchive& archive);
+  static void archive_body(StateArchive& archive, dBodyID body);
+  void archive_order(StateArchive& archive);
   void apply(const Settings& settings, const Scene& scene);
   void add_body(const Body& body, const Settings& settings);
   void add_geometry(const Body& body, dBodyID moving);
@@ -58,6 +63,7 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts {
   void add_contacts(dGeomID a, dGeomID b);
   void note_contact(dJointID joint, const dContactGeom& found);
 
+  StateOwner owner_;
   std::vector<dBodyID> bodies_;      // null for a fixed body
   std::vector<BodyState> standing_;  // where a fixed body stands, by body index
   ContactLaws laws_;
@@ -76,6 +82,7 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts {
   dWorldID world_;
   std::vector<std::unique_ptr<OdeHull>> hulls_;  // ODE keeps pointers into them
   dSpaceID moving_, fixed_;                      // two spaces: fixed shapes are never tried against each other
+  std::vector<dGeomID> geoms_;                   // in `moving_`, as they were made
   dJointGroupID contacts_;                       // lives for one step
   struct Reported {
     ReportedContact contact;  // without its force

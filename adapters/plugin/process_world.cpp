@@ -16,18 +16,11 @@ namespace {
 constexpr long kMostSteps = 1000;
 constexpr double kMostBytes = 8e6, kBytesOfBody = 260;
 
-struct ProcessState : SavedState {
-  Clock clock;
-  double last_dt = 0;  // s
-  long steps = 0;
-  bool steps_are_equal = true;
-  std::string warning, lost_why, snapshot;
-};
-
 }  // namespace
 
 ProcessWorld::ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings)
     : session_(std::move(session)),
+      owner_(session_->info().engine.name, session_->info().engine.version, scene, settings),
       scene_(scene),
       settings_(settings),
       loads_(scene, session_->info()),
@@ -124,19 +117,20 @@ std::vector<ReportedContact> ProcessWorld::contacts() const {
 
 std::unique_ptr<SavedState> ProcessWorld::save() const {
   assert(ahead_.taken == ahead_.count && "the engine is ahead of the step that would be saved");
-  auto state = std::make_unique<ProcessState>();
-  state->clock = clock_, state->last_dt = last_dt_, state->steps = steps_, state->steps_are_equal = steps_are_equal_;
-  state->warning = warning_, state->lost_why = lost_why_;
-  if (lost_why_.empty()) state->snapshot = session_->save(world_);
-  return state;
+  std::string snapshot = lost_why_.empty() ? session_->save(world_) : "";
+  // An archive that saves changes nothing.
+  return owner_.save([&](StateArchive& archive) { const_cast<ProcessWorld*>(this)->archive_state(archive, snapshot); });
 }
 
-void ProcessWorld::restore(const SavedState& saved) {
-  const auto& state = dynamic_cast<const ProcessState&>(saved);
-  clock_ = state.clock, last_dt_ = state.last_dt, steps_ = state.steps, steps_are_equal_ = state.steps_are_equal;
-  warning_ = state.warning, lost_why_ = state.lost_why;
-  if (lost_why_.empty()) session_->restore(world_, state.snapshot);
+void ProcessWorld::restore(const SavedState& state) {
+  std::string snapshot;
+  owner_.restore(state, [&](StateArchive& archive) { archive_state(archive, snapshot); });
+  if (lost_why_.empty()) session_->restore(world_, snapshot);
   ahead_ = {}, is_read_ = false;
+}
+
+void ProcessWorld::archive_state(StateArchive& archive, std::string& snapshot) {
+  archive(clock_, last_dt_, steps_, steps_are_equal_, warning_, lost_why_, snapshot);
 }
 
 void ProcessWorld::read(Snapshot& out) const {

@@ -6,8 +6,7 @@
 
 #include "adapters/plugin/process_session.h"
 #include "adapters/plugin/rigor_loads.h"
-#include "core/engine/clock.h"
-#include "core/engine/engine.h"
+#include "core/engine/saved_bytes.h"
 
 namespace rigor {
 
@@ -51,7 +50,10 @@ class ProcessWorld : public World, public RemoteRuns, public ReportsContacts, pu
   void read_now() const;
   std::size_t bodies() const { return scene_.bodies.size(); }
 
+  void archive_state(StateArchive& archive, std::string& snapshot);
+
   std::shared_ptr<ProcessSession> session_;
+  StateOwner owner_;
   const Scene scene_;
   const Settings settings_;
   RigorLoads loads_;
