@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -17,7 +18,7 @@
 #include "adapters/plugin/rigor_loads.h"
 #include "adapters/plugin/shared_library.h"
 #include "core/base/json.h"
-#include "core/engine/clock.h"
+#include "core/engine/saved_bytes.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
 namespace rigor {
@@ -59,12 +60,19 @@ class GuardedColumns {
   std::array<double*, 13> columns_{};
 };
 
-class LibraryWorld : public World, public ReportsContacts {
+// Whether the library's struct is long enough to have a member that a later version appended.
+template <typename Function>
+bool has_function(const rigor_engine_v1& engine, Function rigor_engine_v1::*member, std::size_t offset) {
+  return engine.struct_size >= offset + sizeof(Function) && engine.*member;
+}
+
+class LibraryWorld : public World, public ReportsContacts, public SavesState {
  public:
   LibraryWorld(const rigor_engine_v1& engine, std::string name, const PluginInfo& info, const Scene& scene,
                const Settings& settings)
       : engine_(engine),
         name_(std::move(name)),
+        owner_(info.engine.name, info.engine.version, scene, settings),
         loads_(scene, info),
         told_(scene.bodies.size()),
         state_(scene.bodies.size()),
@@ -96,13 +104,20 @@ class LibraryWorld : public World, public ReportsContacts {
   std::string solver_warning() const override { return lost_; }
 
   Capabilities capabilities() override {
-    const bool has_it = engine_.struct_size >= sizeof(rigor_engine_v1) && engine_.contacts;
-    return {.contacts = has_it ? this : nullptr};
+    using Abi = rigor_engine_v1;
+    const bool reports = has_function(engine_, &Abi::contacts, offsetof(Abi, contacts));
+    const bool saves = has_function(engine_, &Abi::save, offsetof(Abi, save)) &&
+                       has_function(engine_, &Abi::restore, offsetof(Abi, restore));
+    // A sampling servo holds its effort, which the library does not know.
+    return {.contacts = reports ? this : nullptr, .state = saves && loads_.empty() ? this : nullptr};
   }
   void ask_for_contacts() override {}
   std::vector<ReportedContact> contacts() const override;
+  std::unique_ptr<SavedState> save() const override;
+  void restore(const SavedState& state) override;
 
  private:
+  std::string saved_by_library() const;
   rigor_text text() const {
     room_.front() = room_.back() = '\0';
     return {room_.data(), room_.size() - 1};
@@ -164,6 +179,7 @@ class LibraryWorld : public World, public ReportsContacts {
 
   const rigor_engine_v1& engine_;
   const std::string name_;
+  StateOwner owner_;
   RigorLoads loads_;
   SettingsInForce in_force_;
   rigor_world* world_ = nullptr;
@@ -198,6 +214,39 @@ std::vector<ReportedContact> LibraryWorld::contacts() const {
     contacts.push_back({at.a, at.b, vector(at.point), vector(at.normal), at.gap, vector(at.force)});
   }
   return contacts;
+}
+
+// A second call has room for all that the first one counted.
+std::string LibraryWorld::saved_by_library() const {
+  constexpr std::size_t kFew = 4096, kMost = 1'000'000'000;
+  constexpr char kGuard = '\x5a';
+  std::string bytes;
+  std::size_t size = kFew, room = 0;
+  for (int tries = 0; tries < 2 && room < size; ++tries) {
+    room = size;
+    bytes.assign(room + 1, kGuard);
+    answered("save", engine_.save(world_, reinterpret_cast<unsigned char*>(bytes.data()), room, &size, text()));
+    if (bytes.back() != kGuard) refuse("save", fmt::format("it wrote past its room of {} bytes", room));
+    if (size > kMost) refuse("save", fmt::format("it saves {} bytes; at most {}", size, kMost));
+  }
+  if (size > room) refuse("save", fmt::format("it first counted {} bytes and then {}", room, size));
+  bytes.resize(size);
+  return bytes;
+}
+
+std::unique_ptr<SavedState> LibraryWorld::save() const {
+  Clock clock = clock_;
+  double last_dt = last_dt_;
+  std::string lost = lost_, bytes = lost.empty() ? saved_by_library() : "";
+  return owner_.save([&](StateArchive& archive) { archive(clock, last_dt, lost, bytes); });
+}
+
+void LibraryWorld::restore(const SavedState& state) {
+  std::string bytes;
+  owner_.restore(state, [&](StateArchive& archive) { archive(clock_, last_dt_, lost_, bytes); });
+  if (!lost_.empty()) return;
+  answered("restore",
+           engine_.restore(world_, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), text()));
 }
 
 }  // namespace

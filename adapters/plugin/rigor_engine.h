@@ -67,6 +67,14 @@ typedef struct rigor_engine_v1 {
   /* Optional; the functions from here on may be NULL or beyond struct_size. The contacts of the last step: sets *count
      to their number and writes the first `room` of them. It is called again if there are more than that. */
   rigor_status (*contacts)(rigor_world* world, rigor_contact* contacts, size_t room, size_t* count, rigor_text text);
+
+  /* Optional, both or neither. All that the world's next steps depend on, as bytes of the engine's own: sets *size to
+     their number and writes the first `room` of them. It is called again if there are more than that. */
+  rigor_status (*save)(rigor_world* world, unsigned char* bytes, size_t room, size_t* size, rigor_text text);
+
+  /* Restores what this world saved, or another of the same scene and settings. Bytes that are no saved state of this
+     engine: RIGOR_FAILED with the reason. */
+  rigor_status (*restore)(rigor_world* world, const unsigned char* bytes, size_t size, rigor_text text);
 } rigor_engine_v1;
 
 const rigor_engine_v1* rigor_engine_entry(uint32_t abi_major);

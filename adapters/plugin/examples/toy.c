@@ -137,12 +137,29 @@ static rigor_status read_state(rigor_world* world, double* time, double* const c
   }
   return RIGOR_OK;
 }
+/* What a step depends on: a title, the time, and each body as it is. */
+static const char title[8] = "toy-c 1";
+static rigor_status save(rigor_world* world, unsigned char* bytes, size_t room, size_t* size, rigor_text text) {
+  size_t of_bodies = world->count * sizeof(body), head = sizeof title + sizeof(double);
+  *size = head + of_bodies;
+  if (*size > room) return RIGOR_OK; /* it is called again with more room */
+  memcpy(bytes, title, sizeof title), memcpy(bytes + sizeof title, &world->time, sizeof(double));
+  memcpy(bytes + head, world->bodies, of_bodies);
+  return say(text, RIGOR_OK, "");
+}
+static rigor_status restore(rigor_world* world, const unsigned char* bytes, size_t size, rigor_text text) {
+  size_t of_bodies = world->count * sizeof(body), head = sizeof title + sizeof(double);
+  if (size != head + of_bodies || memcmp(bytes, title, sizeof title) != 0)
+    return say(text, RIGOR_FAILED, "these bytes are no saved state of this scene");
+  memcpy(&world->time, bytes + sizeof title, sizeof(double)), memcpy(world->bodies, bytes + head, of_bodies);
+  return RIGOR_OK;
+}
 static rigor_status unload(rigor_world* world, rigor_text text) {
   (void)text;
   return free(world->bodies), free(world), RIGOR_OK;
 }
 
 const rigor_engine_v1* rigor_engine_entry(uint32_t abi_major) {
-  static const rigor_engine_v1 engine = {sizeof engine, info, load, step, read_state, unload, NULL};
+  static const rigor_engine_v1 engine = {sizeof engine, info, load, step, read_state, unload, NULL, save, restore};
   return abi_major == RIGOR_ENGINE_ABI_MAJOR ? &engine : NULL;
 }

@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 #include "tests/folder.h"
+#include "tests/saved_runs.h"
 #include "tests/scenes.h"
 
 using namespace rigor;
@@ -162,6 +163,60 @@ BOOST_AUTO_TEST_CASE(contacts_are_read_with_as_much_room_as_they_need) {
   check_sentence(contacts_of("contacts-fail"), "'contacts' failed: 'no memory for them'");
   check_sentence(contacts_of("contacts-crowd"), "it counts 5000000 contacts of one step");
   check_sentence(contacts_of("contacts-overrun"), "it wrote past its room of 256 contacts");
+}
+
+BOOST_AUTO_TEST_CASE(the_example_goes_on_from_a_saved_state) {
+  const LibraryEngine engine(kToy, kLimit);
+  const auto world = engine.load(test::tumbling_body(), settings_of(engine)),
+             fresh = engine.load(test::tumbling_body(), settings_of(engine));
+  const test::SavedRun saved = test::saved_run(*world, 0.01, 30, 10);
+  BOOST_TEST(test::restored_apart(*fresh, saved) == "");
+  BOOST_TEST(test::restored_apart(*world, saved) == "");
+  Scene heavier = test::tumbling_body();
+  heavier.bodies[0].mass *= 2;
+  const auto other = engine.load(heavier, settings_of(engine));
+  BOOST_CHECK_THROW(other->capabilities().state->restore(*saved.saved[0]), InputError);
+}
+
+// Saves after two steps, restores after two more, and says which time the world then has.
+std::string restored_time(const std::string& mode) {
+  const Misbehaviour misbehaviour(mode);
+  std::string said;
+  const auto work = [](const Channel& channel) {
+    const LibraryEngine engine(kMisbehaving, kLimit);
+    try {
+      const auto world = engine.load(test::tumbling_body(), settings_of(engine));
+      SavesState* state = world->capabilities().state;
+      if (!state) return channel.send("saves none");
+      world->step(0.25), world->step(0.25);
+      const auto saved = state->save();
+      world->step(0.25), world->step(0.25);
+      state->restore(*saved);
+      Snapshot now;
+      world->read(now);
+      channel.send(std::to_string(now.time));
+    } catch (const EngineFailure& failure) {
+      channel.send(failure.what());
+    }
+  };
+  run_jobs(
+      {{work, 10}}, 1, [&](std::size_t, const std::string& message) { said = message; },
+      [&](std::size_t, const JobEnd& end) {
+        if (end.how != Ending::finished) said = sentence_of(end, 10);
+      });
+  return said;
+}
+
+BOOST_AUTO_TEST_CASE(states_are_saved_with_as_much_room_as_they_need) {
+  check_sentence(restored_time("save"), "^0.5");
+  check_sentence(restored_time(""), "^saves none$");
+  check_sentence(restored_time("save-alone"), "^saves none$");
+  check_sentence(restored_time("save-old-struct"), "^saves none$");
+  check_sentence(restored_time("save-fails"), "'save' failed: 'no room for it'");
+  check_sentence(restored_time("save-crowds"), "it saves 2000000000 bytes");
+  check_sentence(restored_time("save-grows"), "it first counted 8192 bytes and then 16384");
+  check_sentence(restored_time("save-overruns"), "it wrote past its room of 4096 bytes");
+  check_sentence(restored_time("save-unread"), "'restore' failed: 'that is none of mine'");
 }
 
 BOOST_AUTO_TEST_CASE(whatever_it_does_costs_the_cell_in_one_sentence) {

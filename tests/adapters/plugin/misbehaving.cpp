@@ -94,6 +94,23 @@ rigor_status contacts(rigor_world*, rigor_contact* into, size_t room, size_t* co
   return RIGOR_OK;
 }
 
+// The time, in as many bytes as the mode asks for.
+rigor_status save(rigor_world* world, unsigned char* bytes, size_t room, size_t* size, rigor_text text) {
+  if (is("save-fails")) return say(text, RIGOR_FAILED, "no room for it");
+  *size = is("save-crowds") ? 2'000'000'000 : is("save-grows") ? 2 * room : 10'000;
+  if (is("save-overruns")) bytes[room] = 1;
+  if (*size > room) return RIGOR_OK;
+  std::memset(bytes, 0, *size);
+  std::memcpy(bytes, &reinterpret_cast<Still*>(world)->time, sizeof(double));
+  return RIGOR_OK;
+}
+
+rigor_status restore(rigor_world* world, const unsigned char* bytes, size_t size, rigor_text text) {
+  if (size != 10'000 || is("save-unread")) return say(text, RIGOR_FAILED, "that is none of mine");
+  std::memcpy(&reinterpret_cast<Still*>(world)->time, bytes, sizeof(double));
+  return RIGOR_OK;
+}
+
 rigor_status unload(rigor_world* world, rigor_text) {
   delete reinterpret_cast<Still*>(world);
   return RIGOR_OK;
@@ -102,11 +119,16 @@ rigor_status unload(rigor_world* world, rigor_text) {
 }  // namespace
 
 extern "C" const rigor_engine_v1* rigor_engine_entry(uint32_t abi_major) {
-  static rigor_engine_v1 engine = {sizeof(rigor_engine_v1), info, load, step, read_state, unload, nullptr};
+  static rigor_engine_v1 engine = {
+      sizeof(rigor_engine_v1), info, load, step, read_state, unload, nullptr, nullptr, nullptr};
   if (abi_major != RIGOR_ENGINE_ABI_MAJOR || is("other-abi")) return nullptr;
   if (std::getenv("RIGOR_MISBEHAVES") && std::strncmp(std::getenv("RIGOR_MISBEHAVES"), "contacts", 8) == 0)
     engine.contacts = contacts;
   if (is("contacts-old-struct")) engine.struct_size = offsetof(rigor_engine_v1, contacts);
+  const bool saves = std::getenv("RIGOR_MISBEHAVES") && std::strncmp(std::getenv("RIGOR_MISBEHAVES"), "save", 4) == 0;
+  if (saves) engine.save = save, engine.restore = restore;
+  if (is("save-alone")) engine.restore = nullptr;
+  if (is("save-old-struct")) engine.struct_size = offsetof(rigor_engine_v1, restore);
   if (is("small-struct")) engine.struct_size = 16;
   if (is("no-step")) engine.step = nullptr;
   return &engine;

@@ -221,6 +221,51 @@ BOOST_AUTO_TEST_CASE(each_wrong_report_of_contacts_is_found) {
   }
 }
 
+// The core, with a restore that does less than it should.
+class Forgetful : public Engine {
+ public:
+  enum class Forgets { nothing, all, fresh_worlds };
+  explicit Forgetful(Forgets what) : what_(what) {}
+  EngineInfo info() const override { return core().info(); }
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
+    return std::make_unique<Saving>(core().load(scene, settings), what_);
+  }
+  std::string twin(const Settings&) const override { return ""; }
+
+ private:
+  class Saving : public World, public SavesState {
+   public:
+    Saving(std::unique_ptr<World> world, Forgets what) : world_(std::move(world)), what_(what) {}
+    void step(double dt) override { world_->step(dt), is_fresh_ = false; }
+    void read(Snapshot& out) const override { world_->read(out); }
+    SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
+    std::string solver_warning() const override { return world_->solver_warning(); }
+    Capabilities capabilities() override { return {.state = this}; }
+    std::unique_ptr<SavedState> save() const override { return world_->capabilities().state->save(); }
+    void restore(const SavedState& state) override {
+      if (what_ == Forgets::all || (what_ == Forgets::fresh_worlds && is_fresh_)) return;
+      world_->capabilities().state->restore(state);
+    }
+
+   private:
+    std::unique_ptr<World> world_;
+    Forgets what_;
+    bool is_fresh_ = true;
+  };
+  static const Engine& core() { return engines().find("core"); }
+  Forgets what_;
+};
+
+BOOST_AUTO_TEST_CASE(a_restore_that_forgets_is_found) {
+  using Forgets = Forgetful::Forgets;
+  const auto finds = [](Forgets what) {
+    return broken_by(trial_of(Forgetful(what), "core:rk4")).contains("saved-state");
+  };
+  BOOST_TEST(!finds(Forgets::nothing));
+  BOOST_TEST(finds(Forgets::all));
+  BOOST_TEST(finds(Forgets::fresh_worlds));
+}
+
 // Explicit Euler falls g dt t / 2 too short. With a thirtieth of gravity missing it falls short by twice as much.
 BOOST_AUTO_TEST_CASE(a_first_order_fall_that_is_twice_as_wrong_as_its_step_is_found) {
   const Engine& core = engines().find("core");
