@@ -1,4 +1,5 @@
 // Springs, dampers and timed forces.
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -109,6 +110,12 @@ std::vector<Fault> spring_faults() {
   };
 }
 
+// State of the library that no world owns: a run differs from the same run before it.
+void count_worlds(Scene& scene) {
+  static std::atomic<int> worlds = 0;
+  scene.gravity *= 1 + 1e-12 * ++worlds;
+}
+
 }  // namespace
 
 std::vector<Fault> load_faults() {
@@ -129,6 +136,7 @@ std::vector<Fault> load_faults() {
       on_loading("torque reversed", each_force([](TimedForce& f) { f.torque *= -1; })),
   };
   all.insert(all.end(), of_forces.begin(), of_forces.end());
+  all.push_back(on_loading("gravity that counts the loaded worlds", count_worlds));
   return all;
 }
 

@@ -66,6 +66,7 @@ struct JudgedRun {
   double survived = std::numeric_limits<double>::quiet_NaN();     // s, until it blew up, or `duration`
   double duration = 0;                                            // s, of the case
   const Ensembles* ensembles = nullptr;                           // null where the case asks for none
+  const Trajectory* again = nullptr;                              // the same run, loaded again; null if no gate asks
   mutable EnergiesKnown energies = {};                            // filled in by energies_of and energy_series
   mutable ReactionsKnown reactions = {};                          // filled in by largest_reaction_difference
 };

@@ -42,6 +42,7 @@ MetricRow phase_error();
 MetricRow position_error();
 MetricRow reaction_error();
 MetricRow reaction_torque_error();
+MetricRow repeats();
 MetricRow reported_reaction_error();
 MetricRow reported_reaction_torque_error();
 MetricRow restitution_error();
@@ -94,6 +95,7 @@ const std::vector<MetricRow>& metrics() {
       position_error(),
       reaction_error(),
       reaction_torque_error(),
+      repeats(),
       reported_reaction_error(),
       reported_reaction_torque_error(),
       restitution_error(),

@@ -144,6 +144,12 @@ JudgedCell run_once(const Cell& planned, const Case& definition, const EngineTab
   const bool wants_ensembles = options.only_metrics.empty() || is_needed(&MetricNeeds::ensemble, definition, options);
   if (reference && wants_ensembles) ensembles = reference->compare(engines, run_name, definition, cell.dt.seconds);
   if (ensembles) judged.ensembles = &*ensembles;
+  std::optional<Trajectory> again;
+  if (is_asked_for({"repeats"}, definition, options)) {
+    again = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {.is_timed = false})
+                .trajectory;
+    judged.again = &*again;
+  }
   std::vector<NamedSeries> series;
   cell.metrics = measured(judged, run_name, definition, options, series);
   if (twin && options.is_thorough) cell.scheme = judge_scheme(engines, *twin_name, judged, run, definition.duration);

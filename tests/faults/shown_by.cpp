@@ -75,6 +75,7 @@ const std::map<std::string, ShownBy>& shown_by() {
       {"linear damping of 0.001 /s left on", {"ballistic/projectile", kPlace}},
       {"angular damping of 0.001 /s left on", {"ballistic/fast-spin", kTurn + kMomentum + kEnergy}},
       {"sleeping left on", {"springs/oscillator-overdamped", kPlace}},
+      {"gravity that counts the loaded worlds", {"contact/toppling-box", "repeats"}},
       {"gravity while a body is slow left out", {"springs/oscillator", kPlace}},
       {"orientation that creeps", {"ballistic/projectile", kTurn}},
       {"positions kept to a grid of 0.1 mm", {"springs/oscillator", kPlace}},
