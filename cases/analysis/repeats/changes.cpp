@@ -190,7 +190,7 @@ const std::vector<RepeatChange>& repeat_changes() {
       {"threads", "with 1, 2 and 4 threads", true, with_threads},
       {"lanes", "with the kernels of each instruction set", true, with_lanes},
       {"order", "with rows in another order, three times", false, in_another_order},
-      {"copies", "beside 63 copies in one world", false, in_copies},
+      {"copies", "beside 63 copies in one world", false, in_copies, true},
   };
   return table;
 }

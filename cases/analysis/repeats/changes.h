@@ -33,6 +33,7 @@ struct RepeatChange {
   bool must_hold = true;  // otherwise a difference is the effect of a solver that depends on order
   // The runs under the change. Empty if it does not apply, with the reason.
   std::vector<ChangedRun> (*runs)(const RepeatedRun& run, std::string& why_not);
+  bool enlarges = false;  // the scene: an engine that has no memory for it is not broken
 };
 
 const std::vector<RepeatChange>& repeat_changes();

@@ -111,7 +111,7 @@ class Repeater {
       if (end.how == Ending::finished) return;
       for (std::size_t n = first[job]; n < outcomes_.size() && outcomes_[n].change == outcomes_[first[job]].change;
            ++n) {
-        if (!outcomes_[n].is_run) outcomes_[n].why = sentence_of(end, options_.limit), outcomes_[n].has_failed = true;
+        if (!outcomes_[n].is_run) fail(outcomes_[n], sentence_of(end, options_.limit));
       }
     };
     run_jobs(jobs, options_.jobs, on_message, on_end);
@@ -123,6 +123,14 @@ class Repeater {
     RepeatOutcome outcome;
     outcome.change = change.name, outcome.label = label, outcome.must_hold = change.must_hold, outcome.why = why;
     outcomes_.push_back(outcome);
+  }
+
+  static void fail(RepeatOutcome& outcome, const std::string& sentence) {
+    const auto& changes = repeat_changes();
+    const auto change = std::find_if(changes.begin(), changes.end(),
+                                     [&](const RepeatChange& row) { return row.name == outcome.change; });
+    outcome.has_failed = !change->enlarges;
+    outcome.why = (change->enlarges ? "the engine cannot run so large a scene: " : "") + sentence;
   }
 
   // The runs of one change, in a process of their own.

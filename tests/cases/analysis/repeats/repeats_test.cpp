@@ -123,6 +123,59 @@ BOOST_AUTO_TEST_CASE(an_engine_that_counts_its_bodies_shows_in_copies) {
   BOOST_TEST(report.repeats());
 }
 
+// The core, but it saves nothing of what it adds to each step, and has no room for many bodies.
+class ForgetfulEngine : public Engine {
+ public:
+  EngineInfo info() const override {
+    EngineInfo info = engines().info_of("core");
+    info.name = "forgetful", info.is_in_house = false;
+    return info;
+  }
+  std::string twin(const Settings&) const override { return ""; }
+  std::unique_ptr<World> load(const Scene& scene, const Settings& settings) const override {
+    if (scene.bodies.size() > 50) throw std::runtime_error("no memory for so many bodies");
+    return std::make_unique<Aging>(engines().find("core").load(scene, settings));
+  }
+
+ private:
+  class Aging : public World, public SavesState {
+   public:
+    explicit Aging(std::unique_ptr<World> world) : world_(std::move(world)) {}
+    void step(double dt) override { world_->step(dt * (1 + 1e-15 * static_cast<double>(steps_++ % 100))); }
+    void read(Snapshot& out) const override { world_->read(out); }
+    SettingsInForce settings_in_force() const override { return world_->settings_in_force(); }
+    std::string solver_warning() const override { return world_->solver_warning(); }
+    Capabilities capabilities() override { return {.state = this}; }
+    std::unique_ptr<SavedState> save() const override { return world_->capabilities().state->save(); }
+    void restore(const SavedState& state) override { world_->capabilities().state->restore(state); }
+
+   private:
+    std::unique_ptr<World> world_;
+    long steps_ = 0;
+  };
+};
+
+BOOST_AUTO_TEST_CASE(a_save_that_leaves_something_out_shows) {
+  EngineTable table = built_in_engines();
+  table.add(std::make_unique<ForgetfulEngine>());
+  const RepeatReport report = report_of(table, coupled_bodies(0), "forgetful:rk4");
+  BOOST_TEST(!report.repeats());
+  BOOST_TEST(differing(report) == "restored ");
+}
+
+BOOST_AUTO_TEST_CASE(an_engine_without_memory_for_copies_is_not_broken) {
+  EngineTable table = built_in_engines();
+  table.add(std::make_unique<ForgetfulEngine>());
+  const RepeatReport report = report_of(table, coupled_bodies(0), "forgetful:rk4");
+  const auto copies = std::find_if(report.outcomes.begin(), report.outcomes.end(),
+                                   [](const RepeatOutcome& one) { return one.change == "copies"; });
+  BOOST_TEST_REQUIRE((copies != report.outcomes.end()));
+  BOOST_TEST(!copies->is_run);
+  BOOST_TEST(!copies->has_failed);
+  BOOST_TEST(copies->why.starts_with("the engine cannot run so large a scene: "), copies->why);
+  BOOST_TEST(copies->why.find("no memory for so many bodies") != std::string::npos, copies->why);
+}
+
 // Sums of loads depend on the order of rows and on the lanes that a body shares. Such differences are roundings.
 BOOST_AUTO_TEST_CASE(the_core_repeats_but_for_roundings_of_its_order) {
   for (const Scene& scene : {coupled_bodies(0.2), dropped_sphere(0.5), tumbling_body()}) {
