@@ -72,7 +72,7 @@ RecordedStates restored_after(const RepeatedRun& run, long saved_after, bool in_
 }
 
 std::vector<ChangedRun> restored(const RepeatedRun& run, std::string& why_not) {
-  if (!run.engine.load(run.scene, run.name.settings)->capabilities().state) {
+  if (!run.saves_state) {
     why_not = "the engine saves no state of this scene";
     return {};
   }

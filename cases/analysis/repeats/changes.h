@@ -19,6 +19,7 @@ struct RepeatedRun {
   const Scene& scene;
   double dt = 0;  // s
   long steps = 0;
+  bool saves_state = false;  // its worlds can be saved and restored
 };
 
 // The run under one change. `due` computes what it is compared with, if that is not the run itself.
@@ -31,7 +32,8 @@ struct ChangedRun {
 struct RepeatChange {
   std::string name, summary;
   bool must_hold = true;  // otherwise a difference is the effect of a solver that depends on order
-  // The runs under the change. Empty if it does not apply, with the reason.
+  // The runs under the change. Empty if it does not apply, with the reason. It loads no world: each run has a process
+  // of its own, and what an engine starts in this one would be in all of them.
   std::vector<ChangedRun> (*runs)(const RepeatedRun& run, std::string& why_not);
   bool enlarges = false;  // the scene: an engine that has no memory for it is not broken
 };

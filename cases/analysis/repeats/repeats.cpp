@@ -36,24 +36,44 @@ RecordedStates unpacked_states(const std::string& text) {
   return states;
 }
 
+struct TextOrWhy {
+  std::string text, why;
+};
+
+TextOrWhy text_from_child(const EngineTable& engines, double limit, const std::function<std::string()>& work) {
+  TextOrWhy answer;
+  const auto on_message = [&](std::size_t, const std::string& text) { answer.text = text; };
+  const auto on_end = [&](std::size_t, const JobEnd& end) {
+    if (end.how != Ending::finished) answer.why = end.how == Ending::refused ? end.text : sentence_of(end, limit);
+  };
+  const Job job{[&](const Channel& channel) {
+                  channel.send(work());
+                  engines.rest();
+                },
+                limit};
+  run_jobs({job}, 1, on_message, on_end);
+  return answer;
+}
+
 struct StatesOrWhy {
   RecordedStates states;
   std::string why;
 };
 
 StatesOrWhy states_from_child(const EngineTable& engines, double limit, const std::function<RecordedStates()>& work) {
-  StatesOrWhy answer;
-  const auto on_message = [&](std::size_t, const std::string& text) { answer.states = unpacked_states(text); };
-  const auto on_end = [&](std::size_t, const JobEnd& end) {
-    if (end.how != Ending::finished) answer.why = end.how == Ending::refused ? end.text : sentence_of(end, limit);
+  const TextOrWhy answer = text_from_child(engines, limit, [&] { return packed_states(work()); });
+  if (answer.text.empty()) return {{}, answer.why};
+  return {unpacked_states(answer.text), answer.why};
+}
+
+bool saves_state(const EngineTable& engines, const RunName& run, const Scene& scene, double limit) {
+  const auto work = [&] {
+    const auto world = engines.find(run.engine).load(scene, run.settings);
+    return std::string(world->capabilities().state ? "yes" : "no");
   };
-  const Job job{[&](const Channel& channel) {
-                  channel.send(packed_states(work()));
-                  engines.rest();
-                },
-                limit};
-  run_jobs({job}, 1, on_message, on_end);
-  return answer;
+  const TextOrWhy answer = text_from_child(engines, limit, work);
+  if (!answer.why.empty()) throw InputError(fmt::format("{}: {}", run.text, answer.why));
+  return answer.text == "yes";
 }
 
 // One rounding of each coordinate.
@@ -222,7 +242,13 @@ RepeatReport repeat(const EngineTable& engines, const Case& definition, const Ru
   const RecordedStates base = base_states(engines, definition, run, dt, options.limit);
   report.hashes = hashes_of(base);
   const Engine& engine = engines.find(run.engine);
-  const RepeatedRun repeated{engine, engines.info_of(run.engine), run, definition.scene, dt.seconds, report.steps};
+  const RepeatedRun repeated{engine,
+                             engines.info_of(run.engine),
+                             run,
+                             definition.scene,
+                             dt.seconds,
+                             report.steps,
+                             saves_state(engines, run, definition.scene, options.limit)};
   report.outcomes = Repeater(engines, repeated, base, options).all();
   report.outcomes.insert(report.outcomes.begin() + 1, in_new_process(report.hashes, options.elsewhere));
   const bool some_differ = std::any_of(report.outcomes.begin(), report.outcomes.end(),
