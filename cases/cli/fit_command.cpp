@@ -15,6 +15,7 @@
 #include "cases/cli/output.h"
 #include "cases/cli/progress/progress.h"
 #include "cases/cli/vocabulary.h"
+#include "cases/report/json/fit_json.h"
 #include "cases/report/wording/printed_command.h"
 #include "cases/report/wording/wording.h"
 #include "core/base/error.h"
@@ -32,6 +33,7 @@ struct FitRequest {
   StepOption steps;
   DurationOption duration;
   JobsOption jobs;
+  JsonOption json;
   SeedOption seed;
   TimeoutOption timeout;
   std::vector<std::string> vary;  // KEY=LO..HI
@@ -40,7 +42,7 @@ struct FitRequest {
 
   void declare(Options& options) {
     cases.declare(options), engines.declare(options), steps.declare(options), duration.declare(options);
-    jobs.declare(options), seed.declare(options), timeout.declare(options);
+    jobs.declare(options), json.declare(options), seed.declare(options), timeout.declare(options);
     options.add({"--vary", "KEY=LO..HI",
                  "a value to fit within a range: dt, a method's option or a path below scene; LO..HI:log searches in "
                  "logarithms"},
@@ -164,12 +166,18 @@ class FitCommand : public Command {
     for (const std::string& text : asked_.vary) input.axes.push_back(parse_axis(text, true));
     input.hold_out = asked_.hold_out, input.seed = asked_.seed.seed;
     input.jobs = asked_.jobs.count, input.limit = asked_.timeout.seconds;
+    Json all = Json::array();
     for (const std::string& engine : asked_.engines.engines) {
       input.run = run_of_option(engine, engines.infos());
       const FitResult found = fitted(input, engines, words);
-      print_table(text_of(input.run, found));
+      if (asked_.json.is_on) {
+        all.push_back(fit_json(input, found));
+      } else {
+        print_table(text_of(input.run, found));
+      }
       if (!asked_.out.empty()) write_fitted(asked_, input.cases.front(), input.axes, found, words);
     }
+    if (asked_.json.is_on) print(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     return kGood;
   }
 
