@@ -21,7 +21,8 @@ _HOMES = {
     "engines": ("Engine", "World"),
     "motion": ("Closeness", "Trajectory", "close", "trace", "truth"),
     "results": ("Cell", "Metric", "Results"),
-    "answers": ("Conformance", "Diagnosis", "Divergence", "Printed", "Tuned"),
+    "answers": ("Conformance", "Diagnosis", "Divergence", "Printed", "Repeats", "Tuned"),
+    "fitted": ("FitError", "Fitted", "FittedValue"),
     "runs": ("Sweep", "command", "conform", "diagnose", "diverge", "fit", "gate", "repeat", "run", "sweep", "tune"),
     "scene": ("Body", "Scene"),
 }

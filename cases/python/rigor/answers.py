@@ -1,4 +1,4 @@
-"""What commands answer: tuned settings, divergences, conformance and diagnoses."""
+"""What commands answer: tuned settings, divergences, repeats, conformance and diagnoses."""
 from __future__ import annotations
 
 import json
@@ -18,8 +18,8 @@ class Printed:
         """The sentences on stderr."""
         self.text: str = done.out.decode("utf-8", "replace")
         """What the command line prints."""
-        self.json: typing.Any = json.loads(self.text) if as_json else None
-        """The answer of ``--json``; None for a command without it."""
+        self.json: typing.Any = json.loads(self.text) if as_json and self.text.strip() else None
+        """The answer of ``--json``; None for a command without it, or if the command printed none."""
 
     def __bool__(self) -> bool:
         return self.exit_code == 0
@@ -92,6 +92,44 @@ class Divergence(Printed):
         if self.setting:
             lines.append(f"  closes {self.json['setting']['closes']:.1%} of the gap: {self.setting}")
         return "\n".join(lines)
+
+
+class Repeats(Printed):
+    """Whether runs give the same bits under each change that should not matter. True if all of them do."""
+
+    def __init__(self, done: program.Completed, as_json: bool = True):
+        super().__init__(done, as_json)
+        self.runs: list[dict[str, typing.Any]] = self.json or []
+        """A row for each case, with ``case``, ``run``, ``dt``, ``steps``, ``repeats`` and ``changes``. Empty with `record` or `against`.
+
+        A change has ``change``, ``label``, ``must_hold``, ``status`` (same-bits, differs, failed, not-applicable) and ``why``. One that
+        differs also has the ``step`` from which on it does, and where: ``body``, ``component``, ``difference`` there, and ``position`` [m]
+        and ``orientation`` [rad] at the end.
+        """
+
+    def broken(self) -> list[dict[str, typing.Any]]:
+        """The changes that should not matter and do, each with its ``case``."""
+        return [{"case": run["case"], **change} for run in self.runs for change in run["changes"]
+                if change["must_hold"] and change["status"] in ("differs", "failed")]
+
+    def __repr__(self) -> str:
+        if not self.runs:
+            return self.text.rstrip()
+        lines = []
+        for run in self.runs:
+            lines.append(f"{run['case']}: {run['run']} at {run['dt']} s, {run['steps']} steps: {'repeats' if run['repeats'] else 'does not repeat'}")
+            lines += [f"  {change['change']:<16}{change['label']:<11} {self._told(change)}".rstrip() for change in run["changes"]]
+        return "\n".join(lines)
+
+    @staticmethod
+    def _told(change: typing.Mapping[str, typing.Any]) -> str:
+        if change["status"] != "differs":
+            return change["status"] + (f": {change['why']}" if change["why"] else "")
+        text = f"{'DIFFERS' if change['must_hold'] else 'order-dependent'} from step {change['step']} on"
+        if "body" not in change:
+            return text
+        size, position, angle = ("inf" if change[key] is None else f"{change[key]:.3g}" for key in ("difference", "position", "orientation"))
+        return f"{text}: {change['component']} of '{change['body']}' by {size}; at the end {position} m and {angle} rad"
 
 
 class Conformance(Printed):

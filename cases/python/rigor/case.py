@@ -142,7 +142,10 @@ class Case:
         return tomllib.loads(self.to_toml())
 
     def replace(self, **values: typing.Any) -> Case:
-        """The same case with other values, checked again: ``case.replace(**{"scene.body[0].mass": 2.0, "run.duration": 5})``."""
+        """The same case with other values, checked again: ``case.replace(**{"scene.body[0].mass": 2.0, "run.duration": 5})``.
+
+        A path may also name a row, as ``scene.body.cube.mass``. The values of ``rigor.fit`` can be given as they are.
+        """
         changed = self.to_dict()
         for path, value in values.items():
             _set(changed, path, value)
@@ -175,13 +178,24 @@ def _set(values: typing.Any, path: str, value: typing.Any) -> None:
     at = values
     for step, following in zip(steps, steps[1:]):
         try:
-            at = at.setdefault(step, {}) if isinstance(at, dict) and isinstance(following, str) else at[step]
+            if isinstance(at, list) and isinstance(step, str):
+                at = _row(at, step)
+            else:
+                at = at.setdefault(step, {}) if isinstance(at, dict) and isinstance(following, str) else at[step]
         except (KeyError, IndexError, TypeError):
             raise InputError(f"{path}: the case has no {step!r} there", path) from None
     try:
         at[steps[-1]] = value
     except (IndexError, TypeError):
         raise InputError(f"{path}: the case has no {steps[-1]!r} there", path) from None
+
+
+def _row(rows: list[typing.Any], name: str) -> typing.Any:
+    """The row with this name, as in ``scene.body.cube.mass``. KeyError for a name that no row or several have."""
+    named = [row for row in rows if isinstance(row, dict) and row.get("name") == name]
+    if len(named) != 1:
+        raise KeyError(name)
+    return named[0]
 
 
 class WrittenCases:

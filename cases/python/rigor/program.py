@@ -16,7 +16,7 @@ from .errors import EngineError, InputError, Interrupted, RigorError, Unsupporte
 
 HERE = pathlib.Path(__file__).resolve().parent
 _ENDS_WITHIN = 10.0  # s that an interrupted program may take to stop its cells
-_PROGRESS = re.compile(r"rigor: (\d+) (?:of (\d+) )?\S+ after ")
+_PROGRESS = re.compile(r"rigor: (\d+) (?:of (\d+) )?\S+(?: of \S+)? after ")  # "12 cells", "12 of 30 cells", "12 values of core:rk4"
 _NOTE = re.compile(r"^rigor: ", re.MULTILINE)
 
 

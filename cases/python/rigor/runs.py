@@ -8,10 +8,11 @@ import tempfile
 import typing
 
 from . import program
-from .answers import Conformance, Diagnosis, Divergence, Printed, Tuned
+from .answers import Conformance, Diagnosis, Divergence, Printed, Repeats, Tuned
 from .case import CaseWord, WrittenCases
 from .engines import Plugins
 from .errors import InputError
+from .fitted import Fitted
 from .results import Results
 
 Cases = typing.Union[CaseWord, typing.Iterable[CaseWord], None]
@@ -193,10 +194,34 @@ def command(name: str, cases: Cases = None, *, engines: typing.Any = None, plugi
     return Printed(program.checked(call.printed(progress), (0, 1)), has_json)
 
 
-def fit(cases: Cases, *, engine: typing.Any, vary: typing.Mapping[str, typing.Any], **options: typing.Any) -> Printed:
-    """The parameters that fit the truth or a recording best: ``vary={"scene.contact[0].friction": "0.1..1"}``."""
-    words = [f"{key}={values if isinstance(values, str) else '..'.join(repr(float(v)) for v in values)}" for key, values in vary.items()]
-    return command("fit", cases, engines=engine, vary=words, **options)
+def _range(key: str, values: typing.Any) -> str:
+    if isinstance(values, str):
+        return f"{key}={values}"
+    ends = _listed(values)
+    if len(ends) != 2 or not all(isinstance(end, str) or hasattr(end, "__float__") and not isinstance(end, bool) for end in ends):
+        raise InputError(f"vary: {key!r} has the range {values!r}; allowed: two numbers, as (0.1, 0.9), or a text, as \"0.1..0.9\" or \"0.01..1:log\"")
+    return f"{key}={'..'.join(end if isinstance(end, str) else repr(float(end)) for end in ends)}"
+
+
+def fit(cases: Cases, *, engine: typing.Any, vary: typing.Mapping[str, typing.Any], dt: typing.Any = None, duration: typing.Any = None,
+        hold_out: float | None = None, seed: int | None = None, plugins: typing.Any = (), in_process: bool | None = None, jobs: int | None = None,
+        timeout: typing.Any = None, out: typing.Any = None, progress: Progress = None, **options: typing.Any) -> Fitted:
+    """The values with which `engine` follows a recording or another truth best: ``vary={"scene.contact_default.friction": (0.05, 0.9)}``.
+
+    `vary`: a range for each key, ``(low, high)`` or ``"0.01..1:log"``, in the unit of the case file. A key is ``dt``, an
+    option of the method, or a path below ``scene``. Several are fitted together. `cases` may be several; `dt` [s] is one step, by
+    default the coarsest of the case. `hold_out`: the share of the trials, from 0 to 1, that takes no part and is predicted.
+    `seed` draws the start and the held-out trials; the same seed gives the same values. `out`: a file for the case with the
+    fitted values. `progress` gets (values tried, 0), because their number is not known before.
+    """
+    if not isinstance(vary, dict) or not vary:
+        raise InputError("vary is a dict from a key to its range, as {\"scene.contact_default.friction\": (0.05, 0.9)}")
+    if len(_listed(engine)) != 1:
+        raise InputError(f"fit: takes one engine, and there are {len(_listed(engine))} of them")
+    call = _Call("fit", cases, engine, plugins, in_process,
+                 {"vary": [_range(key, values) for key, values in vary.items()], "dt": dt, "duration": duration, "hold_out": hold_out, "seed": seed,
+                  "jobs": jobs, "timeout": timeout, "out": None if out is None else os.fspath(out), **options, "json": True})
+    return Fitted(program.checked(call.printed(progress)))
 
 
 def diverge(case: Cases, *, engines: typing.Any = None, dt: typing.Any = None, duration: typing.Any = None, plugins: typing.Any = (),
@@ -209,9 +234,18 @@ def diverge(case: Cases, *, engines: typing.Any = None, dt: typing.Any = None, d
     return Divergence(program.checked(call.printed(progress)))
 
 
-def repeat(cases: Cases, *, engine: typing.Any, **options: typing.Any) -> Printed:
-    """Whether a run gives the same bits under each change that should not matter."""
-    return command("repeat", cases, engines=engine, **options)
+def repeat(cases: Cases, *, engine: typing.Any, dt: typing.Any = None, duration: typing.Any = None, plugins: typing.Any = (),
+           in_process: bool | None = None, jobs: int | None = None, timeout: typing.Any = None, record: typing.Any = None, against: typing.Any = None,
+           progress: Progress = None, **options: typing.Any) -> Repeats:
+    """Whether a run gives the same bits under each change that should not matter: ``assert rigor.repeat("springs", engine=MyEngine)``.
+
+    `dt` [s] is one step, by default the first of the case. `record`: a file for the hashes of each step. `against`: such a file,
+    perhaps of another machine, that the run is compared with. Both make no table of changes.
+    """
+    files = {name: os.fspath(file) for name, file in (("record", record), ("against", against)) if file is not None}
+    call = _Call("repeat", cases, engine, plugins, in_process,
+                 {"dt": dt, "duration": duration, "jobs": jobs, "timeout": timeout, **options, **files, "json": not files})
+    return Repeats(program.checked(call.printed(progress), (0, 1)), not files)
 
 
 def conform(engine: typing.Any, *, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = False,

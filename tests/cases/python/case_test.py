@@ -96,6 +96,7 @@ def test_what_is_no_value_of_a_case_is_named(value, words):
     (lambda: rigor.load(3), "an id, a path or a rigor.Case"),
     (lambda: rigor.load("springs/fixed-spring").replace(**{"scene.body[7].mass": 1}), "the case has no 7"),
     (lambda: rigor.load("springs/fixed-spring").replace(**{"scene.body[0].mass": -1}), "scene.body"),
+    (lambda: rigor.load("springs/fixed-spring").replace(**{"scene.body.cub.mass": 1}), "the case has no 'cub' there"),
     (lambda: rigor.load("springs/fixed-spring").replace(**{"scene body": 1}), "no path of a value"),
 ])
 def test_a_wrong_call_is_an_input_error_of_one_sentence(call, words):
@@ -108,6 +109,7 @@ def test_replace_gives_another_checked_case():
     case = rigor.load("springs/fixed-spring")
     other = case.replace(**{"scene.body[0].mass": 50.0, "run.duration": 1})
     assert other.scene.bodies[0].mass == 50 and other.duration == 1
+    assert case.replace(**{"scene.body.cube.mass": 50.0}).scene.rows == case.replace(**{"scene.body[0].mass": 50.0}).scene.rows
     assert case.scene.bodies[0].mass == 100
 
 

@@ -18,7 +18,7 @@ def test_the_tutorial_runs_in_an_empty_folder(tmp_path):
     said = subprocess.run([sys.executable, "-W", "error::UserWarning", str(TUTORIAL)], capture_output=True, text=True, cwd=tmp_path)
     assert said.returncode == 0, said.stdout + said.stderr
     for words in ("the arm: ", "they part at t = 0.021 s, first at 'upper'; nearer the truth: core:rk4; cause: gravity", "method: rk4 -> semi-implicit-euler",
-                  "ode: ", "the error falls as dt^1.0", "t = 0.5 s: ", "friction: 0.3", "first: does not conform: straight-line, spin", "second: conforms"):
+                  "ode: ", "the error falls as dt^1.0", "t = 0.5 s: ", "friction: 0.30", "the value is good", "first: does not conform: straight-line, spin", "second: conforms"):
         assert words in said.stdout, said.stdout
 
 

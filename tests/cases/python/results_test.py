@@ -186,15 +186,9 @@ def test_tune_finds_a_setting_that_runs():
     assert rigor.run("springs/stiff-1", engines=tuned.engine, dt=tuned.dt, duration=0.5, progress=False).cells[0].metric("position_error") <= 1e-3
 
 
-def test_commands_that_a_build_lacks_say_so():
-    known = subprocess.run([sys.executable, "-m", "rigor", "--help"], capture_output=True, text=True, check=True).stdout
-    for name, call in {"fit": lambda: rigor.fit("springs/stiff-1", engine="ode", vary={"scene.spring[0].stiffness": (1, 2)}),
-                       "diverge": lambda: rigor.diverge("springs/stiff-1", engines=["ode", "bullet"]),
-                       "repeat": lambda: rigor.repeat("springs/stiff-1", engine="ode")}.items():
-        if f"\n  {name} " in known:
-            continue  # where the command is there, its own tests call it
-        with pytest.raises(rigor.InputError, match=f"there is no command '{name}'"):
-            call()
+def test_a_command_that_prints_no_json_has_none(fall, tmp_path):
+    done = rigor.command("repeat", fall, engines="core:rk4", dt="1/10", record=tmp_path / "hashes.jsonl")
+    assert done and done.json is None and (tmp_path / "hashes.jsonl").is_file()
 
 
 def test_the_module_is_the_command_line(tmp_path):
