@@ -1,6 +1,7 @@
 """Calls a user's engine and checks what comes back. Each fault becomes one sentence; none becomes a wrong state."""
 from __future__ import annotations
 
+import inspect
 import json
 import os
 import threading
@@ -47,16 +48,34 @@ def _kind(value: typing.Any) -> str:
     return "None" if value is None else f"a {type(value).__name__}"
 
 
+def _refuse_call_of_step(who: str, step: typing.Callable[..., typing.Any], takes_wrenches: bool) -> None:
+    """Names a step that cannot be called in each way, before a run has begun."""
+    try:
+        signature = inspect.signature(step)
+    except (TypeError, ValueError):  # compiled functions may have none
+        return
+    try:
+        signature.bind(0.0)
+    except TypeError as error:
+        raise Fault(f"{who}'s step() cannot be called as step(dt): {error}; write step(self, dt, wrenches=None), for a scene without forces has none") from None
+    try:
+        signature.bind(0.0, *([None] if takes_wrenches else []))
+    except TypeError as error:
+        raise Fault(f"{who}'s step() cannot be called as step(dt, wrenches): {error}; an engine with the feature 'wrench' gets them") from None
+
+
 class GuardedWorld:
     """A world of a user's engine. `step` and `read` are bound to what the user wrote; others check."""
 
-    def __init__(self, who: str, world: typing.Any, scene: Scene, settings: typing.Mapping[str, typing.Any], reports_contacts: bool):
+    def __init__(self, who: str, world: typing.Any, scene: Scene, settings: typing.Mapping[str, typing.Any], reports_contacts: bool,
+                 takes_wrenches: bool = False):
         self.who, self.world, self.scene, self.bodies = who, world, scene, len(scene)
         for call in ("step", "read", *(["contacts"] if reports_contacts else [])):
             if not callable(getattr(world, call, None)):
                 raise Fault(f"{who}.load() returned {_kind(world)} without a method {call}(); it returns a world with step(dt) and read()")
         self.step: typing.Callable[..., typing.Any] = world.step
         self.read: typing.Callable[[], typing.Any] = world.read
+        _refuse_call_of_step(who, world.step, takes_wrenches)
         told = getattr(world, "settings", None)
         told = told() if callable(told) else told
         if told is not None and not isinstance(told, dict):
@@ -91,6 +110,8 @@ class GuardedWorld:
     def contacts(self) -> list[tuple[typing.Any, ...]]:
         """Rows of (a, b, point, normal, gap, force), flat."""
         rows, who = self.world.contacts(), f"{self.who}'s contacts()"
+        if not hasattr(rows, "__iter__"):
+            raise Fault(f"{who} returned {_kind(rows)}; a list of rows (a, b, point, normal, gap, force) is due")
         flat: list[tuple[typing.Any, ...]] = []
         for row in rows:
             try:

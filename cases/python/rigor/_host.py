@@ -48,4 +48,4 @@ class Host:
         world = self.engine.load(scene, settings)
         if world is None:
             raise Fault(f"{self.who}.load() returned None; it returns a world with step(dt) and read()")
-        return GuardedWorld(self.who, world, scene, settings, self.engine.reports_contacts)
+        return GuardedWorld(self.who, world, scene, settings, self.engine.reports_contacts, "wrench" in self.engine.features)

@@ -10,6 +10,8 @@ from free_bodies import FreeBodies, FreeWorld
 
 import rigor
 
+BOTH = pytest.mark.parametrize("in_process", [False, True], ids=["own-process", "in-process"])
+
 
 class NoLoad(rigor.Engine):
     pass
@@ -23,6 +25,27 @@ class NoWorld(FreeBodies):
 class NoStep(FreeBodies):
     def load(self, scene, settings):
         return object()
+
+
+class NeedsWrenches(FreeBodies):
+    def load(self, scene, settings):
+        world = FreeWorld(scene)
+        world.step = lambda dt, wrenches: None
+        return world
+
+
+class TakesNoWrenches(FreeBodies):
+    def load(self, scene, settings):
+        world = FreeWorld(scene)
+        world.step = lambda dt: None
+        return world
+
+
+class BadSettings(FreeBodies):
+    def load(self, scene, settings):
+        world = FreeWorld(scene)
+        world.settings = 3
+        return world
 
 
 class BadName(FreeBodies):
@@ -45,14 +68,18 @@ class Taken(FreeBodies):
     name = "ode"
 
 
+@BOTH
 @pytest.mark.parametrize("engine, words", [
     (NoLoad, "has no method load"), (NoWorld, r"load\(\) returned None"), (NoStep, r"without a method step\(\)"), (BadName, "allowed: 1 to 64"),
+    (NeedsWrenches, r"missing a required argument: 'wrenches'; write step\(self, dt, wrenches=None\)"),
+    (TakesNoWrenches, r"as step\(dt, wrenches\): too many positional arguments"), (BadSettings, "are a int; they are a dict of texts"),
     (BadFeatures, "it is a list of texts"), (BadMethods, "each with a name"), (Taken, "ode"), (FreeBodies(), r"give FreeBodies, and not FreeBodies\(\)"),
     (int, "class of rigor.Engine"), (None, "class of rigor.Engine"),
 ])
-def test_a_class_that_is_no_engine_is_refused(engine, words):
-    with pytest.raises(rigor.RigorError, match=words):
-        rigor.trace("ballistic/free-fall", engine=engine, dt="1/30", duration=1)
+def test_a_class_that_is_no_engine_is_refused(engine, words, in_process):
+    with pytest.raises(rigor.RigorError, match=words) as caught:
+        rigor.trace("ballistic/free-fall", engine=engine, dt="1/30", duration=1, in_process=in_process)
+    assert "\n" not in str(caught.value)
 
 
 def test_an_object_that_cannot_travel_is_named():
