@@ -1,10 +1,14 @@
 // Mechanisms that MSC ADAMS computed. Each case's truth, and the best method of the core, meet ADAMS's figures within
 // the rounding of their last digit and ADAMS's own error. The figures, and what they mean, stand in adams_figures.csv.
 //
-// ADAMS's own error cannot be read from the tables: their settings are unknown. But three tables are one motion, that
-// of a rod released level: revolute-1 and cylindrical-2 agree with the closed form to every digit, and spherical-1 is
-// up to 8.4e-4 m away from them. So the limits below are measured, and the largest of them is of that size. Most cases
-// need none.
+// ADAMS's own error is not published. Its tables show it:
+//   - Three tables are one motion, of a rod released level. revolute-1 and cylindrical-2 agree with the closed form to
+//     every digit of the positions. spherical-1 is 8.4e-4 m away from them.
+//   - No joint does work, but the energy of the states in its tables drifts: by 7.9e-3 J in spherical-1, universal-1
+//     and universal-2, as of 8.1e-4 m of height; by 3.3e-4 J in distance-2; by 7.5e-5 J in revolute-1.
+//   - The force in prismatic-2 is constant. ADAMS's wavers by 8e-4 N, and its couple by that at 2 x 61 m.
+// The truth has two solutions that agree to 1e-9. So the limits in the table below are ADAMS's errors: what its whole
+// tables miss, measured, and a tenth more.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -34,19 +38,23 @@ const std::vector<AdamsCase>& all_cases() {
       {"adams-actuator-1", "lin_actuator/LinActuator_Case01", "P", 6, {}},
       {"adams-actuator-2", "lin_actuator/LinActuator_Case02", "P", 6, {}},
       {"adams-cylindrical-1", "cylindrical_joint/Cylindrical_Case01", "", 6, {}},
-      {"adams-cylindrical-2", "cylindrical_joint/Cylindrical_Case02", "", 6, {}},
-      {"adams-distance-1", "distance_constraint/Distance_Case01", "", 7, {}},
-      {"adams-distance-2", "distance_constraint/Distance_Case02", "", 7, {}, {1, 2, 3}},
+      {"adams-cylindrical-2", "cylindrical_joint/Cylindrical_Case02", "", 6, {1.1e-8, 0, 6.7e-4, 0}},
+      {"adams-distance-1", "distance_constraint/Distance_Case01", "", 7, {1.4e-8, 0, 1.5e-3, 0}},
+      {"adams-distance-2", "distance_constraint/Distance_Case02", "", 7, {1.9e-5, 2.8e-5, 0.019, 0}, {1, 2, 3}},
       {"adams-prismatic-1", "prismatic_joint/Prismatic_Case01", "", 6, {}},
-      {"adams-prismatic-2", "prismatic_joint/Prismatic_Case02", "", 6, {}, {1, 2, 3}},
-      {"adams-revolute-1", "revolute_joint/Revolute_Case01", "", 6, {}},
-      {"adams-revolute-spherical-1", "revsph_constraint/RevSpherical_Case01", "_Body1", 6, {}},
-      {"adams-rotational-spring-1", "rotspring_force/RotSpring_Case01", "", 7, {}},
-      {"adams-spherical-1", "spherical_joint/Spherical_Case01", "", 6, {}},
+      {"adams-prismatic-2", "prismatic_joint/Prismatic_Case02", "", 6, {0, 0, 8.5e-4, 0.103}, {1, 2, 3}},
+      {"adams-revolute-1", "revolute_joint/Revolute_Case01", "", 6, {1.1e-8, 0, 6.4e-4, 0}},
+      {"adams-revolute-spherical-1",
+       "revsph_constraint/RevSpherical_Case01",
+       "_Body1",
+       6,
+       {4.1e-7, 1.9e-7, 3.7e-3, 6.3e-3}},
+      {"adams-rotational-spring-1", "rotspring_force/RotSpring_Case01", "", 7, {1.5e-6, 5.1e-7, 8.5e-4, 1.6e-4}},
+      {"adams-spherical-1", "spherical_joint/Spherical_Case01", "", 6, {9.3e-4, 5.0e-4, 0.0141, 0}},
       {"adams-spring-1", "transpring_force/TranSpring_Case01", "", 6, {}},
-      {"adams-spring-2", "transpring_force/TranSpring_Case02", "", 7, {}},
-      {"adams-universal-1", "universal_joint/Universal_Case01", "", 6, {}},
-      {"adams-universal-2", "universal_joint/Universal_Case02", "", 6, {}},
+      {"adams-spring-2", "transpring_force/TranSpring_Case02", "", 7, {7.4e-9, 0, 7.7e-8, 0}},
+      {"adams-universal-1", "universal_joint/Universal_Case01", "", 6, {9.3e-4, 5.0e-4, 0.0141, 0}},
+      {"adams-universal-2", "universal_joint/Universal_Case02", "", 6, {9.3e-4, 5.0e-4, 0.0141, 0}},
   };
   return cases;
 }
@@ -124,8 +132,8 @@ void keep_largest(AdamsError& largest, const AdamsError& one) {
     largest.*part = std::max(largest.*part, one.*part);
 }
 
-// Of 601 N m and 123 m, the largest numbers of the tables, printed by a program in double precision.
-constexpr double kRounding = 1e-12;
+// Zeros of ADAMS are up to 4.2e-12 N m.
+constexpr double kRounding = 1e-11;
 
 bool is_within(const AdamsError& found, const AdamsError& allowed) {
   return found.position <= allowed.position + kRounding && found.rotation <= allowed.rotation + kRounding &&
@@ -218,14 +226,15 @@ BOOST_AUTO_TEST_CASE(another_convention_of_loads_misses_the_figures) {
       BOOST_TEST_CONTEXT(one.id) BOOST_TEST(!is_within(largest_error(one, scene, table), one.error));
     }
     table = cited().at(path_of(one));
-    if (std::ranges::any_of(table, [](const auto& row) { return row.force.cross(row.position).norm() > 1e-3; })) {
+    if (std::ranges::any_of(
+            table, [&](const auto& row) { return (row.position - one.marker).cross(row.force).norm() > 1e-3; })) {
       ++moved;
       for (AdamsFigures& row : table) row.couple += (one.marker - row.position).cross(row.force);
       BOOST_TEST_CONTEXT(one.id) BOOST_TEST(!is_within(largest_error(one, scene, table), one.error));
     }
   }
   BOOST_TEST(turned == 13);  // not those that fall freely along their joint: actuator-1, cylindrical-1, prismatic-1
-  BOOST_TEST(moved == 12);
+  BOOST_TEST(moved == 10);   // nor those whose force points to the centre: distance-1, spring-1, spring-2
 }
 
 // The whole tables, each of 501 instants, where RIGOR_DATA has them.
