@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(another_convention_of_loads_misses_the_figures) {
   BOOST_TEST(moved == 10);   // nor those whose force points to the centre: distance-1, spring-1, spring-2
 }
 
-// The whole tables, each of 501 instants, where RIGOR_DATA has them.
+// The whole tables, each of 501 instants, where RIGOR_DATA has them. With --log_level=all the differences are printed.
 BOOST_AUTO_TEST_CASE(the_truth_meets_the_whole_tables,
                      *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
                        return boost::test_tools::assertion_result(!test::adams_folder().empty());
