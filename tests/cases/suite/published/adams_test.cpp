@@ -177,8 +177,10 @@ BOOST_AUTO_TEST_CASE(the_truth_and_its_loads_meet_the_cited_figures) {
 
 // The file's truth where it is a closed form; the others are the reference itself.
 BOOST_AUTO_TEST_CASE(closed_forms_meet_the_cited_figures) {
-  for (const auto& [id, kind] :
-       {std::pair{"adams-prismatic-1", "slider"}, {"adams-prismatic-2", "slider"}, {"adams-revolute-1", "pendulum"}}) {
+  for (const auto& [id, kind] : {std::pair{"adams-prismatic-1", "slider"},
+                                 {"adams-prismatic-2", "slider"},
+                                 {"adams-revolute-1", "pendulum"},
+                                 {"adams-spring-1", "oscillator"}}) {
     const auto one = std::find_if(all_cases().begin(), all_cases().end(), [&](const auto& c) { return c.id == id; });
     const Scene scene = test::suite_scene(path_of(*one));
     const auto truth = make_truth(kind, scene, kDuration);
