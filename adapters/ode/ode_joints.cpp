@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "adapters/ode/ode_joint_ends.h"
+#include "adapters/ode/ode_library.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -70,7 +71,11 @@ struct OdeJoints::Maker {
     const dJointID id = attached(dJointCreateUniversal(world, nullptr));
     const auto [one, other] = ends.axes(universal);
     dJointSetUniversalAnchor(id, universal.anchor.x(), universal.anchor.y(), universal.anchor.z());
-    dJointSetUniversalAxis1(id, one.x(), one.y(), one.z());
+    {
+      // ODE computes the cross after each axis, now with a second axis of its own, which may be parallel to the first.
+      const ode_library::WithoutMessages halfway;
+      dJointSetUniversalAxis1(id, one.x(), one.y(), one.z());
+    }
     dJointSetUniversalAxis2(id, other.x(), other.y(), other.z());
     return id;
   }

@@ -11,6 +11,7 @@ namespace rigor::ode_library {
 namespace {
 
 thread_local std::string messages;
+thread_local bool are_messages_dropped = false;
 
 // The text that ODE's printf-like call would print.
 std::string formatted(const char* format, va_list arguments) {
@@ -20,7 +21,8 @@ std::string formatted(const char* format, va_list arguments) {
 }
 
 void on_message(int, const char* format, va_list arguments) {
-  if (!messages.empty()) return;  // the first one of a step says it; a broken pile would repeat it a thousand times
+  if (are_messages_dropped || !messages.empty())
+    return;  // the first one of a step says it; a broken pile would repeat it a thousand times
   messages = formatted(format, arguments);
 }
 
@@ -46,5 +48,8 @@ void start() {
 }
 
 std::string take_messages() { return std::exchange(messages, {}); }
+
+WithoutMessages::WithoutMessages() { are_messages_dropped = true; }
+WithoutMessages::~WithoutMessages() { are_messages_dropped = false; }
 
 }  // namespace rigor::ode_library

@@ -11,4 +11,13 @@ void start();
 // ODE's messages in this thread since the last call ("LCP internal error …"); empty without messages.
 std::string take_messages();
 
+// Drops ODE's messages in this thread as long as it lives.
+class WithoutMessages {
+ public:
+  WithoutMessages();
+  ~WithoutMessages();
+  WithoutMessages(const WithoutMessages&) = delete;
+  WithoutMessages& operator=(const WithoutMessages&) = delete;
+};
+
 }  // namespace rigor::ode_library
