@@ -47,8 +47,12 @@ class Trajectory(np.ndarray):
     def _bodies(self) -> int:
         time = np.asarray(self["time"])
         count = int(np.argmax(time != time[0])) if len(time) and (time != time[0]).any() else len(time)
-        if count == 0 or len(time) % count:
-            raise InputError("these rows are no whole trajectory: each instant needs a row of each body")
+        is_whole = count > 0 and len(time) % count == 0 and len(set(self["body"][:count].tolist())) == count
+        if is_whole:  # a part of the rows may begin in the middle of an instant
+            instants = time.reshape(-1, count)
+            is_whole = bool((instants == instants[:, :1]).all() and (instants[1:, 0] != instants[:-1, 0]).all())
+        if not is_whole:
+            raise InputError("these rows are no whole trajectory: each instant needs one row of each body")
         return count
 
     def body(self, name: str) -> Trajectory:
@@ -169,6 +173,8 @@ def truth(case: CaseWord, *, times: typing.Any = None, duration: typing.Any = No
     `times` is a sequence of instants, or a trajectory whose instants are taken; without it each coarsest step of the case.
     """
     if times is not None:
+        if isinstance(times, np.ma.MaskedArray) and np.ma.is_masked(times):
+            raise InputError("truth: some of `times` are masked; take times.compressed()")
         instants = times.times if isinstance(times, Trajectory) else np.ravel(np.asarray(times, dtype=object))
         texts = ["0" if step == 0 else step_text(step) for step in instants]
         if not texts:

@@ -168,6 +168,30 @@ def test_a_table_that_is_none_is_an_exception(text):
         _native.read_states(text)
 
 
+@pytest.mark.parametrize("times, words", [
+    ([float("nan")], "--times"), ([-1], "--times"), (["soon"], "--times"), ([], "is empty"), (np.array([1 + 2j]), "not a complex"), ([True], "not a bool"),
+    ([None], "not a NoneType"), (np.array(["2026-01-01"], dtype="datetime64[D]"), "not a date"), (np.ma.masked_array([0.5, 1], mask=[0, 1]), "masked"),
+])
+def test_times_that_are_none_are_named(fall, times, words):
+    with pytest.raises(rigor.InputError, match=words):
+        rigor.truth(fall, times=times)
+
+
+def test_times_of_any_strides_keep_their_order(fall):
+    assert rigor.truth(fall, times=np.linspace(0, 1, 5)[::-2]).times.tolist() == [1, 0.5, 0]
+    assert rigor.truth(fall, times=np.asfortranarray([[0, 0.5], [1, 0.25]])).times.tolist() == [0, 0.5, 1, 0.25]
+
+
+def test_a_part_of_a_trajectory_never_mixes_bodies(fall):
+    traj = rigor.trace(fall, engine="core:rk4", dt="1/10")
+    stone, wheel = traj["px"][::2].tolist(), traj["px"][1::2].tolist()
+    assert traj[2:].position[:, 1, 0].tolist() == wheel[1:] and traj[::2].position[:, 0, 0].tolist() == stone
+    assert traj[::-1].position[:, 0, 0].tolist() == wheel[::-1] and traj.body("wheel").position[:, 0, 0].tolist() == wheel
+    for part in (traj[1:], traj[:-1], traj[:0], traj[[0, 1, 0, 1]], traj[[0, 0]], traj[[0, 2, 3, 4, 5, 6]]):
+        with pytest.raises(rigor.InputError, match="no whole trajectory"):
+            part.position
+
+
 def test_names_with_commas_and_other_letters_are_read():
     rows = _native.read_states('time,body,px\n0,"a, ""b""",1\n0,Würfel,-2.5e-3\n'.encode())
     assert rows["body"].tolist() == ['a, "b"', "Würfel"] and rows["px"].tolist() == [1, -2.5e-3]
