@@ -317,7 +317,14 @@ bool reports_contacts() { return text_of_specification().find("\"contacts\": tru
 
 extern "C" __attribute__((visibility("default"))) const rigor_engine_v1* rigor_engine_entry(uint32_t abi_major) {
   using namespace rigor::python;
-  static const rigor_engine_v1 engine = {
-      sizeof(rigor_engine_v1), info, load, step, read, unload, reports_contacts() ? contacts : nullptr};
+  static const rigor_engine_v1 engine = {sizeof(rigor_engine_v1),
+                                         info,
+                                         load,
+                                         step,
+                                         read,
+                                         unload,
+                                         reports_contacts() ? contacts : nullptr,
+                                         /* save */ nullptr,
+                                         /* restore */ nullptr};
   return abi_major == RIGOR_ENGINE_ABI_MAJOR ? &engine : nullptr;
 }
