@@ -36,7 +36,7 @@ const std::vector<Chain> kChains = {
     {"core", {"base", "scene", "engine", "dynamics", "", "examples"}},  // "": the public face, core/world.h
     {"core/dynamics", {"kernels", "model", "joints", "integrators", "collision", "contact"}},
     {"cases/report",
-     {"", "wording", "csv", "json", "console", "markdown", "github", "junit", "html", "scene", "trace"}},
+     {"", "wording", "csv", "json", "console", "markdown", "github", "junit", "html", "site", "scene", "trace"}},
     {"cases", {"import", "case", "truth", "metrics", "results", "runner", "gates", "analysis", "report", "cli"}},
 };
 

@@ -39,6 +39,11 @@ MainErrorOfCell main_error_of(const CaseResult& result, const Cell& cell, const 
   return {value, std::max(error->value, metric.starts_with("energy") ? 0 : error_floor(result))};
 }
 
+bool is_wrong_as_a_whole(const Cell& cell) {
+  return !cell.metrics.empty() && cell.stability.verdict != Verdict::stable &&
+         cell.stability.verdict != Verdict::drifting;
+}
+
 bool is_reference_method(const Results& results, std::size_t run) {
   const RunName& name = results.runs[run];
   for (const EngineInfo& engine : results.engines) {

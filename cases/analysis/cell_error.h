@@ -21,6 +21,9 @@ struct MainErrorOfCell {
 };
 MainErrorOfCell main_error_of(const CaseResult& result, const Cell& cell, const std::string& metric);
 
+// A motion that is wrong as a whole (blown up, collapsed, ...), though its numbers are finite.
+bool is_wrong_as_a_whole(const Cell& cell);
+
 // Whether a run is an adaptive method of ours. Such a method divides its steps until a tolerance holds: it is a
 // reference and no choice of step, so reports show it apart.
 bool is_reference_method(const Results& results, std::size_t run);

@@ -17,12 +17,6 @@ struct Outcome {
   double cost;   // 0 if it was not measured
 };
 
-// A motion that is wrong as a whole, though its numbers are finite.
-bool is_wrong_as_a_whole(const Cell& cell) {
-  return !cell.metrics.empty() && cell.stability.verdict != Verdict::stable &&
-         cell.stability.verdict != Verdict::drifting;
-}
-
 // None where the cell says nothing about the run: it was not run, or there is no truth independent of it.
 std::optional<Outcome> outcome_of(const CaseResult& result, const Cell& cell, const std::string& metric) {
   const MainErrorOfCell error = main_error_of(result, cell, metric);

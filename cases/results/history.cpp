@@ -39,11 +39,8 @@ Json json_of(const HistoryEntry& entry) {
     if (cell.cost) row["cost"] = *cell.cost;
     cells.push_back(std::move(row));
   }
-  return {{kFormKey, kHistoryForm},
-          {"commit", entry.commit},
-          {"date", entry.date},
-          {"machine", entry.machine},
-          {"cells", cells}};
+  return {{kFormKey, kHistoryForm},   {"commit", entry.commit},     {"date", entry.date},
+          {"machine", entry.machine}, {"versions", entry.versions}, {"cells", cells}};
 }
 
 HistoryEntry entry_from(const Json& json) {
@@ -51,6 +48,7 @@ HistoryEntry entry_from(const Json& json) {
   HistoryEntry entry;
   entry.commit = json.at("commit").get<std::string>(), entry.date = json.at("date").get<std::string>();
   entry.machine = json.at("machine").get<std::string>();
+  if (json.contains("versions")) entry.versions = json.at("versions").get<std::map<std::string, std::string>>();
   for (const Json& row : json.at("cells")) {
     HistoryEntry::Cell cell;
     cell.status = status_of(row.at("status").get<std::string>());
@@ -72,7 +70,7 @@ void check_ends_with_a_line(const std::string& file) {
 
 HistoryEntry history_entry(const std::string& results_file, const std::string& commit, const std::string& date) {
   const Baseline baseline = read_baseline(results_file);
-  HistoryEntry entry{commit, date, "", {}};
+  HistoryEntry entry{commit, date, "", {}, {}};
   for (const auto& [key, cell] : baseline.cells) {
     HistoryEntry::Cell& kept = entry.cells[key];
     kept.status = cell.status;
@@ -86,6 +84,10 @@ HistoryEntry history_entry(const std::string& results_file, const std::string& c
     entry.machine =
         fmt::format("{}, {} cores, {}, {}", machine.at("cpu").get<std::string>(), machine.at("cores").get<int>(),
                     machine.at("compiler").get<std::string>(), machine.at("build_type").get<std::string>());
+    for (const Json& run : json.at("engines")) {
+      if (run.contains("version"))
+        entry.versions[run.at("name").get<std::string>()] = run.at("version").get<std::string>();
+    }
     for (const Json& cell : json.at("cells")) {
       const Json& metrics = cell.at("metrics");
       if (!metrics.contains("cost") || !metrics.at("cost").contains("value")) continue;

@@ -19,6 +19,7 @@ struct HistoryEntry {
     std::optional<double> cost;             // s/s
   };
   std::map<CellKey, Cell> cells;
+  std::map<std::string, std::string> versions = {};  // of the engine, by run; empty in lines of Rigor 1.0
 };
 
 // Reads a results.json. Throws InputError for any other file.

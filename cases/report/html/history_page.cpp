@@ -34,7 +34,12 @@ struct Decades {
 };
 
 std::string hint_of(const HistoryEntry& entry, const std::string& value) {
-  return fmt::format("<title>{} ({}): {}</title>", escaped(entry.commit), entry.date.substr(0, 10), value);
+  const std::string date = entry.date.empty() ? "" : " (" + escaped(entry.date.substr(0, 10)) + ")";
+  return fmt::format("<title>{}{}: {}</title>", escaped(entry.commit), date, value);
+}
+
+std::string axis_label(const HistoryEntry& entry) {
+  return entry.commit.substr(0, std::min<std::size_t>(8, entry.commit.find(' ')));
 }
 
 // A mark is red where a new level begins; at the top, and red, where the run had no finite value.
@@ -58,10 +63,9 @@ std::string curve(const CellSeries& series, const std::vector<HistoryEntry>& his
   text += svg_line(kPlotLeft, kPlotTop + kPlotHeight, kPlotLeft + kPlotWidth, kPlotTop + kPlotHeight, "axis");
   for (const double value : {decades.least * 1.26, decades.most / 1.26})
     text += svg_text(kPlotLeft - 6, kPlotTop + kPlotHeight * (1 - decades.share(value)) + 4, tick(value), "end");
-  text += svg_text(x_of(0), kPlotTop + kPlotHeight + 16, history.front().commit.substr(0, 8), "middle");
+  text += svg_text(x_of(0), kPlotTop + kPlotHeight + 16, axis_label(history.front()));
   if (history.size() > 1)
-    text +=
-        svg_text(x_of(history.size() - 1), kPlotTop + kPlotHeight + 16, history.back().commit.substr(0, 8), "middle");
+    text += svg_text(x_of(history.size() - 1), kPlotTop + kPlotHeight + 16, axis_label(history.back()));
   return text + fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#3b76c4\" stroke-width=\"1.4\"/>", path) + marks;
 }
 
@@ -80,20 +84,21 @@ std::string figure_of(const std::string& name, const CellSeries& series, const s
       std::any_of(series.values.begin(), series.values.end(), [](double v) { return !std::isnan(v); });
   if (!has_values) return "";
   return fmt::format(
-      "<figure><svg width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} {1:g}\" role=\"img\">{2}</svg>"
+      "<figure><svg width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} {1:g}\" role=\"img\" "
+      "aria-label=\"{4}\">{2}</svg>"
       "<figcaption>{3}</figcaption></figure>\n",
       kPlotLeft + kPlotWidth + kPlotRight, kPlotTop + kPlotHeight + kPlotBottom, curve(series, history),
-      escaped(sentence(name, series, history)));
+      escaped(sentence(name, series, history)), escaped(name + " from entry to entry"));
 }
 
-std::string section_of(const CellHistory& cell, const std::vector<HistoryEntry>& history) {
+}  // namespace
+
+std::string history_section(const CellHistory& cell, const std::vector<HistoryEntry>& history) {
   std::string text = fmt::format("<h3>{}</h3>\n", escaped(cell.name));
   if (!cell.status_change.empty()) text += fmt::format("<p>status: {}</p>\n", escaped(cell.status_change));
   const std::string error = cell.metric.empty() ? "" : figure_of(cell.metric, cell.error, history);
   return text + "<div class=\"row\">\n" + error + figure_of("cost [s/s]", cell.cost, history) + "</div>\n";
 }
-
-}  // namespace
 
 std::string history_page(const std::vector<HistoryEntry>& history, const std::vector<std::string>& words) {
   std::string text = page_head("Rigor: a history") + "<h1>How errors and costs moved</h1>\n";
@@ -110,7 +115,7 @@ std::string history_page(const std::vector<HistoryEntry>& history, const std::ve
       history.size(), escaped(history.front().commit), history.front().date.substr(0, 10),
       escaped(history.back().commit), history.back().date.substr(0, 10), changed, cells.size(),
       escaped(history.back().machine));
-  for (std::size_t i = 0; i < std::min(cells.size(), kMostCellsDrawn); ++i) text += section_of(cells[i], history);
+  for (std::size_t i = 0; i < std::min(cells.size(), kMostCellsDrawn); ++i) text += history_section(cells[i], history);
   if (cells.size() > kMostCellsDrawn)
     text += fmt::format("<p>{} more cells are not drawn; name cases or engines to see them.</p>\n",
                         cells.size() - kMostCellsDrawn);

@@ -5,11 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "cases/analysis/cell_history.h"
 #include "cases/results/history.h"
 
 namespace rigor {
 
 // For all cells, or those whose names contain one of `words`: changed ones first.
 std::string history_page(const std::vector<HistoryEntry>& history, const std::vector<std::string>& words);
+
+// One cell: its name, the change of its status, and its error and cost drawn, as HTML.
+std::string history_section(const CellHistory& cell, const std::vector<HistoryEntry>& history);
 
 }  // namespace rigor

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "adapters/engines.h"
+#include "cases/report/html/data_element.h"
 #include "cases/report/html/page_bundle.h"
 #include "cases/report/html/playback.h"
 #include "cases/report/json/json_report.h"
@@ -111,17 +112,6 @@ Json playbacks(const Results& results, std::size_t budget) {
   return {{"series", series_names()}, {"cases", cases}};
 }
 
-// JSON that may stand in a <script>: no "<" is left that could end it or begin a comment.
-std::string inside_script(const Json& json) {
-  std::string text = text_of(json, -1), safe;
-  for (const char c : text) c == '<' ? safe += "\\u003c" : safe += c;
-  return safe;
-}
-
-void add_data(std::string& page, const char* id, const Json& json) {
-  page += std::string("<script type=\"application/json\" id=\"") + id + "\">" + inside_script(json) + "</script>\n";
-}
-
 // Only one script runs in the page, identified by its hash, whatever names the data contain. Nothing is fetched or
 // sent.
 std::string policy() {
@@ -143,10 +133,11 @@ std::string html_report(const Results& results) {
       "</style>\n</head>\n<body>\n<main id=\"page\"><p class=\"loading\">Unpacking the results …</p>"
       "<noscript>This report needs JavaScript, which is off here. report.md has the same content as text."
       "</noscript></main>\n";
-  add_data(page, "rigor-results", {{"encoding", "base64 of zlib of results.json"}, {"data", results_data(results)}});
+  page +=
+      data_element(kResultsElement, {{"encoding", "base64 of zlib of results.json"}, {"data", results_data(results)}});
   constexpr std::size_t kWholePage = 3'900'000, kLeastPlayback = 250'000;  // characters
   const std::size_t rest = page.size() + kPageScript.size() + kPageLicences.size();
-  add_data(page, "rigor-playback", playbacks(results, std::max(kWholePage, rest + kLeastPlayback) - rest));
+  page += data_element(kPlaybackElement, playbacks(results, std::max(kWholePage, rest + kLeastPlayback) - rest));
   page += "<script>";  // and nothing else in it: it has a hash
   page += kPageScript;
   page += "</script>\n<!--\n";

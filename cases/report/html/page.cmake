@@ -1,8 +1,8 @@
 # Builds the page of report.html into rigor_cases_light, a part of cases. npm installs the packages of package-lock.json
 # into the build tree, once. esbuild bundles them with page/src, and the result becomes a C++ source. Rigor needs none
 # of this at run time.
-set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/../reports.cpp PROPERTIES
-  COMPILE_DEFINITIONS RIGOR_HTML_REPORT=$<BOOL:${RIGOR_HTML_REPORT}>)
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/../reports.cpp ${CMAKE_CURRENT_LIST_DIR}/../../cli/site_command.cpp
+  PROPERTIES COMPILE_DEFINITIONS RIGOR_HTML_REPORT=$<BOOL:${RIGOR_HTML_REPORT}>)
 set(page ${CMAKE_CURRENT_LIST_DIR}/page)
 set(page_build ${CMAKE_BINARY_DIR}/page)
 file(MAKE_DIRECTORY ${page_build})
@@ -10,7 +10,7 @@ set(RIGOR_PAGE_MODULES ${page_build}/node_modules)
 
 if(NOT RIGOR_HTML_REPORT)
   get_target_property(sources rigor_cases_light SOURCES)
-  list(FILTER sources EXCLUDE REGEX "/html_report\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "(/html_report|/report/site/[^/]*)\\.cpp$")
   set_target_properties(rigor_cases_light PROPERTIES SOURCES "${sources}")
   return()
 endif()

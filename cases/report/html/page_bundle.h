@@ -8,6 +8,7 @@ namespace rigor {
 extern const std::string_view kPageScript;
 extern const std::string_view kPageScriptHash;  // as a content security policy names it
 extern const std::string_view kPageStyle;
+extern const std::string_view kSiteStyle;  // of the pages of `rigor site` that run no script
 extern const std::string_view kPageLicences;  // of the script's content
 
 }  // namespace rigor

@@ -16,6 +16,7 @@ void keep_values(Json& metrics) {
   for (const auto& [name, metric] : metrics.items()) {
     if (metric.contains("value")) {
       kept[name] = {{"value", metric.at("value")}};
+      if (metric.contains("held_to_itself")) kept[name]["held_to_itself"] = metric.at("held_to_itself");
     } else if (metric.at("not_applicable").get<std::string>().starts_with("not measured")) {
       kept[name] = {{"not_applicable", "not measured"}};
     }

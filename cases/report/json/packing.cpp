@@ -8,6 +8,11 @@
 #include <stdexcept>
 
 namespace rigor {
+namespace {
+
+constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+}  // namespace
 
 void Bytes::add_u16(std::uint16_t value) {
   add_u8(static_cast<std::uint8_t>(value)), add_u8(static_cast<std::uint8_t>(value >> 8));
@@ -49,7 +54,6 @@ std::uint16_t quantised(double share) {
 }
 
 std::string base64(const std::string& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -72,6 +76,33 @@ std::string deflated(const std::string& bytes) {
   if (answer != Z_OK) throw std::runtime_error("zlib could not deflate the report's data");
   out.resize(size);
   return out;
+}
+
+std::string from_base64(std::string_view text) {
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  while (text.ends_with('=')) text.remove_suffix(1);
+  for (const char c : text) {
+    const char* found = c == '\0' ? nullptr : std::strchr(kDigits, c);
+    if (!found) throw std::runtime_error("the packed data is not base64");
+    bits = bits << 6 | static_cast<unsigned>(found - kDigits), count += 6;
+    if (count >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 255);
+  }
+  return bytes;
+}
+
+std::string inflated(const std::string& bytes, std::size_t limit) {
+  std::string out(std::min(limit, 16 * bytes.size() + 1024), '\0');
+  for (;;) {
+    uLongf size = out.size();
+    const int answer = uncompress(reinterpret_cast<Bytef*>(out.data()), &size,
+                                  reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+    if (answer == Z_OK) return out.resize(size), out;
+    if (answer != Z_BUF_ERROR || out.size() >= limit)
+      throw std::runtime_error("the packed data is damaged or too long");
+    out.resize(std::min(limit, 4 * out.size()));
+  }
 }
 
 }  // namespace rigor

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rigor {
@@ -30,5 +31,9 @@ std::uint16_t quantised(double share);
 
 std::string base64(const std::string& bytes);
 std::string deflated(const std::string& bytes);  // as zlib writes it (RFC 1950)
+
+// The reverse. Throws std::runtime_error for damaged text, and for content of more than `limit` bytes.
+std::string from_base64(std::string_view text);
+std::string inflated(const std::string& bytes, std::size_t limit);
 
 }  // namespace rigor

@@ -27,6 +27,7 @@ const script = await esbuild.build({
   legalComments: "none",
 });
 const style = await esbuild.build({ ...common, entryPoints: [join(here, "src/style.css")] });
+const siteStyle = await esbuild.build({ ...common, entryPoints: [join(here, "src/site.css")] });
 
 const licences = ["three", "uplot"]
   .map((name) => {
@@ -62,6 +63,7 @@ namespace rigor {
 ${literal("kPageScript", text)}
 ${literal("kPageScriptHash", `sha256-${createHash("sha256").update(text).digest("base64")}`)}
 ${literal("kPageStyle", style.outputFiles[0].text)}
+${literal("kSiteStyle", siteStyle.outputFiles[0].text)}
 ${literal("kPageLicences", licences.replaceAll("--", "- -"))}
 }  // namespace rigor
 `,

@@ -4,7 +4,7 @@ import { withFormulas } from "./formulas.js";
 import { digits, quantity } from "./format.js";
 import { questionOf } from "./question.js";
 import { sceneSketch } from "./scene_sketch.js";
-import { address, set } from "./state.js";
+import { address, addressOfAll, openAll, site } from "./state.js";
 
 function truthText({ truth, duration }) {
   if (truth.kind === "none") return "No truth: only stability and what is conserved are judged.";
@@ -30,8 +30,9 @@ function aboutTruth(one) {
   );
 }
 
-// A link to the case at `at`, which may be beyond either end of the list.
-function step(page, at, sign, label) {
+// A link to the case at `at`, which may be beyond either end of the list; in a site to another page.
+function step(page, at, sign, label, elsewhere) {
+  if (elsewhere) return el("a.quiet", { href: elsewhere.address, title: elsewhere.id, "aria-label": label }, sign);
   const other = page.results.cases[at];
   if (!other) return el("span.quiet.is-off", {}, sign);
   return el(
@@ -49,14 +50,14 @@ function step(page, at, sign, label) {
 function path(page) {
   const { one, results } = page,
     at = results.cases.indexOf(one);
-  const toAll = (event) => (event.preventDefault(), set({ case: "", time: 0, zoom: null }, { push: true }));
+  const toAll = (event) => (event.preventDefault(), openAll());
   return el(
     "p.path",
     {},
-    el("a", { href: address({ case: "" }), onclick: toAll }, "All cases"),
+    el("a", { href: addressOfAll(), onclick: toAll }, "All cases"),
     " / ",
     one.id,
-    el("span.steps", {}, step(page, at - 1, "‹", "The case before"), step(page, at + 1, "›", "The next case")),
+    el("span.steps", {}, step(page, at - 1, "‹", "The case before", site?.before), step(page, at + 1, "›", "The next case", site?.after)),
   );
 }
 

@@ -14,7 +14,7 @@ import { commands, repairs } from "./repair.js";
 import { schemeSplit } from "./scheme_tables.js";
 import { Stage } from "./stage.js";
 import { TimePlots } from "./time_plots.js";
-import { onChange, openCase, set, state } from "./state.js";
+import { onChange, openAll, openCase, set, site, state } from "./state.js";
 
 const shownAtFirst = 6;
 
@@ -279,6 +279,8 @@ export class CaseView {
   }
 
   goTo(index) {
+    const elsewhere = site?.[index < this.results.cases.indexOf(this.one) ? "before" : "after"];
+    if (elsewhere) return location.assign(elsewhere.address);
     const next = this.results.cases[index];
     if (next) openCase(next.id);
   }
@@ -315,7 +317,7 @@ export class CaseView {
         set({
           dt: this.one.dt[(this.one.dt.findIndex((dt) => dt.text === this.dt.text) + 1) % this.one.dt.length].text,
         }),
-      Escape: () => set({ case: "", time: 0, zoom: null }, { push: true }),
+      Escape: openAll,
     };
     if (!actions[event.key] || (event.key === " " && onButton)) return false;
     actions[event.key]();

@@ -5,7 +5,7 @@ import { CaseView } from "./case_view.js";
 import { Overview } from "./overview.js";
 import { openHelp } from "./help.js";
 import { applyTheme, themeButton } from "./theme.js";
-import { followAddress, onChange, set, state } from "./state.js";
+import { addressOfAll, followAddress, onChange, openAll, site, state } from "./state.js";
 
 const page = document.getElementById("page");
 
@@ -18,8 +18,8 @@ function header(results) {
     el(
       "a.brand",
       {
-        href: "#/",
-        onclick: (event) => (event.preventDefault(), set({ case: "", time: 0, zoom: null }, { push: true })),
+        href: addressOfAll(),
+        onclick: (event) => (event.preventDefault(), openAll()),
       },
       "Rigor",
     ),
@@ -33,7 +33,7 @@ function header(results) {
     ),
     el("span.spacer"),
     el("button.quiet", { type: "button", title: "Keys (?)", onclick: openHelp, "aria-label": "Keys and help" }, "?"),
-    themeButton(),
+    site ? null : themeButton(), // a site's other pages follow the system
   );
 }
 
@@ -48,7 +48,7 @@ function unknownCase(results) {
     "section",
     {},
     el("h1", {}, "No such case"),
-    el("p", {}, `This report has no case “${state.case}”. `, el("a", { href: "#/" }, "All cases")),
+    el("p", {}, `This report has no case “${state.case}”. `, el("a", { href: addressOfAll() }, "All cases")),
   );
 }
 
@@ -67,7 +67,7 @@ async function start() {
   }
   const results = await loadResults();
   document.head.append(engineColours(results.engines));
-  followAddress();
+  followAddress(site ? results.cases[0].id : "");
   let view = null;
   const show = () => {
     view?.close();

@@ -1,4 +1,9 @@
 // What is looked at, as one object, and the same in the address behind the "#", so that a view can be sent on.
+
+// In a site that `rigor site` wrote: the addresses of its front page and of the cases before and after this one. Null in
+// a report.
+export const site = JSON.parse(document.getElementById("rigor-site")?.textContent ?? "null");
+
 const listeners = new Set();
 export const state = {
   case: "", // id; "" is the first page
@@ -28,6 +33,10 @@ export function set(changes, { push = false } = {}) {
 // Shows a case from its start, with the named engines, or those that the page chooses.
 export const openCase = (id, changes = {}) =>
   set({ case: id, time: 0, zoom: null, engines: null, ...changes }, { push: true });
+
+// The address of the list of all cases, and the way to it.
+export const addressOfAll = () => site?.all ?? address({ case: "" });
+export const openAll = () => (site ? location.assign(site.all) : set({ case: "", time: 0, zoom: null }, { push: true }));
 
 export function onChange(listener) {
   listeners.add(listener);
@@ -67,15 +76,16 @@ function writeAddress(push) {
   }
 }
 
+let onlyCase = "";
 function fromAddress() {
   const [path, query = ""] = location.hash.replace(/^#\/?/, "").split("?");
   const given = new URLSearchParams(query);
   const number = (text, otherwise) =>
     text !== null && text !== "" && Number.isFinite(Number(text)) ? Number(text) : otherwise;
   const zoom = given.get("zoom")?.split("~").map(Number) ?? [];
-  let id = path;
+  let id = path || onlyCase;
   try {
-    id = decodeURIComponent(path);
+    if (path) id = decodeURIComponent(path);
   } catch {
     /* taken as it stands */
   }
@@ -96,7 +106,9 @@ function fromAddress() {
   };
 }
 
-export function followAddress() {
+// `only`: the id of the case where there is one alone, else "".
+export function followAddress(only = "") {
+  onlyCase = only;
   Object.assign(state, fromAddress());
   window.addEventListener("popstate", () => {
     clearTimeout(pending), (pending = 0);

@@ -1,9 +1,10 @@
 // Light or dark: as the system says, until the reader says otherwise.
 import { el } from "./dom.js";
+import { site } from "./state.js";
 
 const listeners = new Set();
 const system = matchMedia("(prefers-color-scheme: dark)");
-let chosen = read();
+let chosen = site ? null : read(); // a site's other pages follow the system
 
 function read() {
   try {
