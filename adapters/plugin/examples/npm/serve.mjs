@@ -109,6 +109,12 @@ export const times = ([a, ...u], [b, ...v]) => [a * b - dot(u, v), ...v.map((x, 
 export const rotate = (q, v) => times(times(q, [0, ...v]), back(q)).slice(1);
 export const back = ([w, x, y, z]) => [w, -x, -y, -z];
 
+// The torque -w x (I w) in W, for an engine without the gyroscopic term. q is the pose of the principal frame.
+export function gyroscopicTorque(q, moments, w) {
+  const spin = rotate(back(q), w);
+  return rotate(q, cross(spin.map((part, i) => moments[i] * part), spin));
+}
+
 // A body's pose at t = 0; of a plane, and of the world, that of W.
 export function pose(scene, name) {
   const body = scene.body.find((one) => one.name === name);
