@@ -45,8 +45,9 @@ struct All {
 };
 
 All filled() {
-  All all{true,           Kind::two,          -7, std::numeric_limits<double>::denorm_min(), "a text",
-          {1, 2.5, -0.0}, {true, false, true}};
+  All all;
+  all.flag = true, all.kind = Kind::two, all.number = -7, all.real = std::numeric_limits<double>::denorm_min();
+  all.text = "a text", all.reals = {1, 2.5, -0.0}, all.flags = {true, false, true};
   all.parts = {{3, "x"}, {4, ""}}, all.floats = {1, 2, 3}, all.perhaps = Part{5, "there"}, all.both = {8, 0.1};
   all.vector = {1, 2, 3}, all.turn = Quat(0.1, 0.2, 0.3, 0.4), all.any.setLinSpaced(5, 0, 1);
   all.bodies.resize(2, true);
@@ -76,7 +77,7 @@ BOOST_AUTO_TEST_CASE(each_kind_of_value_comes_back) {
   BOOST_TEST(back.perhaps->name == "there");
   BOOST_TEST(back.flags[2]);
   BOOST_TEST(back.turn.w() == 0.1);
-  BOOST_TEST(back.bodies.columns().column(kRotation + 8)[1] == kRotation + 8.5);
+  BOOST_TEST(back.bodies.columns().column(kRotation + 8)[1] == static_cast<int>(kRotation) + 8.5);
   BOOST_TEST(back.clock.time() == 0.2);
 }
 

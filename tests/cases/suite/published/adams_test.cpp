@@ -240,10 +240,11 @@ BOOST_AUTO_TEST_CASE(another_convention_of_loads_misses_the_figures) {
 }
 
 // The whole tables, each of 501 instants, where RIGOR_DATA has them. With --log_level=all the differences are printed.
-BOOST_AUTO_TEST_CASE(the_truth_meets_the_whole_tables,
-                     *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
-                       return boost::test_tools::assertion_result(!test::adams_folder().empty());
-                     })) {
+BOOST_AUTO_TEST_CASE(the_truth_meets_the_whole_tables) {
+  if (test::adams_folder().empty()) {
+    BOOST_TEST_MESSAGE("not compared: RIGOR_DATA does not name the folder of the tables");
+    return;
+  }
   for (const AdamsCase& one : all_cases()) {
     const test::AdamsTable table = whole_adams_table(test::adams_folder(), one);
     BOOST_TEST_REQUIRE(table.size() == 501);
