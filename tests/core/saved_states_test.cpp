@@ -1,6 +1,7 @@
 // The core saves all that its next steps depend on: a fresh world, and one that has run on, continue with the same
 // bits.
 #include <boost/test/unit_test.hpp>
+#include <map>
 #include <optional>
 
 #include "adapters/engines.h"
@@ -85,7 +86,8 @@ BOOST_AUTO_TEST_CASE(each_contact_method_continues_with_the_same_bits) {
     double dt;
     long steps;
   };
-  for (const Row& row : std::vector<Row>{{"contact/bounce-half", "course", 0.01, 90},
+  std::map<std::string, int> checked;
+  for (const Row& row : std::vector<Row>{{"contact/collision", "course", 0.01, 90},
                                          {"contact/pile-666", "course", 1.0 / 30, 30},
                                          {"contact/bounce-half", "event", 0.01, 90},
                                          {"contact/cradle", "event", 0.01, 60},
@@ -105,10 +107,13 @@ BOOST_AUTO_TEST_CASE(each_contact_method_continues_with_the_same_bits) {
     const Scene scene = suite_scene(row.id);
     for (const char* integrator : {"velocity-verlet", "semi-implicit-euler", "rk4"}) {
       const std::string run = std::string("core:") + integrator + ",contact=" + row.method;
+      if (!is_supported(scene, run, row.dt)) continue;
       BOOST_TEST_CONTEXT(row.id) check_restored(scene, run, row.dt, row.steps, 15);
+      ++checked[row.method];
       if (scene.bodies.size() > 100) break;
     }
   }
+  for (const char* method : {"course", "event", "impulse", "soft"}) BOOST_TEST(checked[method] > 0, method);
 }
 
 // The same world with the bodies where they are, as a save of their states alone would restore it.
