@@ -34,9 +34,8 @@ std::string plugin(const std::string& name) {
   return " --plugin 'node " RIGOR_BUILD_DIR "/plugins/npm/" + name + ".mjs'";
 }
 
-constexpr const char* kEngines[][2] = {{"ammo", "ammo"},    {"cannon-es", "cannon-es"}, {"havok", "havok"},
-                                       {"jolt", "jolt"},    {"mujoco", "mujoco-js"},    {"physx", "physx"},
-                                       {"rapier", "rapier"}};
+constexpr const char* kEngines[][2] = {{"ammo", "ammo"},        {"cannon-es", "cannon-es"}, {"jolt", "jolt"},
+                                       {"mujoco", "mujoco-js"}, {"physx", "physx"},         {"rapier", "rapier"}};
 
 }  // namespace
 
