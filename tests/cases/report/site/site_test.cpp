@@ -280,7 +280,7 @@ BOOST_AUTO_TEST_CASE(the_folder_is_replaced_as_a_whole_or_not_at_all) {
   folder.write("file", "");
   refuses({"out", "--out", "file"}, "it is no folder");
   refuses({"out", "--out", "file/below"}, "--out file/below");
-  refuses({"out", "--out", ""}, "the name is empty");
+  refuses({"out", "--out", ""}, "--out: needs a value");
 }
 
 BOOST_AUTO_TEST_CASE(hostile_names_stay_text_and_stay_inside) {
