@@ -38,10 +38,10 @@ OptionInfo orientation_option(const Integrator& integrator) {
           .by_default = integrator.default_orientation};
 }
 
-class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps, public SavesState {
+class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps, public ArchivesState {
  public:
   CoreWorld(const Scene& scene, const Integrator& integrator, const Settings& settings)
-      : owner_("core", RIGOR_VERSION, scene, settings),
+      : ArchivesState("core", RIGOR_VERSION, scene, settings),
         system_(scene),
         integrator_(integrator),
         tolerance_(number_option(settings, kToleranceOption)),
@@ -121,16 +121,8 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps, pu
 
   std::optional<double> sub_step() const override { return contact_ ? contact_->sub_step() : std::nullopt; }
 
-  // An archive that saves changes nothing.
-  std::unique_ptr<SavedState> save() const override {
-    return owner_.save([this](StateArchive& archive) { const_cast<CoreWorld*>(this)->archive_state(archive); });
-  }
-  void restore(const SavedState& state) override {
-    owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
-  }
-
  private:
-  void archive_state(StateArchive& archive) {
+  void archive_state(StateArchive& archive) override {
     archive(clock_, state_, system_.loads, passages_);
     if (joints_) archive(*joints_);
     if (motors_) archive(*motors_);
@@ -162,7 +154,6 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps, pu
                        kFewCollidingBodies);
   }
 
-  StateOwner owner_;
   System system_;
   const Integrator integrator_;
   double tolerance_;  // of an adaptive method

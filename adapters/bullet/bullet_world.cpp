@@ -56,7 +56,7 @@ std::unique_ptr<btSequentialImpulseConstraintSolver> make_solver(const std::stri
 }  // namespace
 
 BulletWorld::BulletWorld(const Scene& scene, const Settings& settings)
-    : owner_("bullet", fmt::format("{}", btGetVersion()), scene, settings),
+    : ArchivesState("bullet", fmt::format("{}", btGetVersion()), scene, settings),
       laws_(scene),
       loads_(scene),
       matched_(settings.track == Track::matched),
@@ -216,15 +216,6 @@ void BulletWorld::read(Snapshot& out) const {
 
 std::vector<ReportedReaction> BulletWorld::reactions() const {
   return clock_.time() > 0 ? joints_->reactions() : std::vector<ReportedReaction>();
-}
-
-std::unique_ptr<SavedState> BulletWorld::save() const {
-  // An archive that saves changes nothing.
-  return owner_.save([this](StateArchive& archive) { const_cast<BulletWorld*>(this)->archive_state(archive); });
-}
-
-void BulletWorld::restore(const SavedState& state) {
-  owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
 }
 
 void BulletWorld::archive_state(StateArchive& archive) {

@@ -19,7 +19,7 @@
 
 namespace rigor {
 
-class BulletWorld : public World, public ReportsReactions, public ReportsContacts, public SavesState {
+class BulletWorld : public World, public ReportsReactions, public ReportsContacts, public ArchivesState {
  public:
   BulletWorld(const Scene& scene, const Settings& settings);
   BulletWorld(const BulletWorld&) = delete;
@@ -34,8 +34,6 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override {}  // Bullet always keeps them
   std::vector<ReportedContact> contacts() const override { return bullet::contacts_of(dispatcher_, last_dt_); }
-  std::unique_ptr<SavedState> save() const override;
-  void restore(const SavedState& state) override;
 
  private:
   struct Row {
@@ -46,7 +44,7 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
     BodyState standing;            // of a fixed body
   };
 
-  void archive_state(StateArchive& archive);
+  void archive_state(StateArchive& archive) override;
   void apply(const Settings& settings);
   void match(const Scene& scene, const Settings& settings);
   void keep_apart(const Scene& scene);
@@ -57,7 +55,6 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
   const btRigidBody* first_moving() const;
   std::string restitution_in_words() const;
 
-  StateOwner owner_;
   ContactLaws laws_;
   ExternalLoads loads_;
   bool matched_, bounces_, is_soft_;

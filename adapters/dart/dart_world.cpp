@@ -75,7 +75,7 @@ void refuse_what_features_do_not_say(const Scene& scene, const SpanningTree& tre
   }
 }
 
-class DartWorld : public World, public ReportsReactions, public ReportsContacts, public SavesState {
+class DartWorld : public World, public ReportsReactions, public ReportsContacts, public ArchivesState {
  public:
   DartWorld(const Scene& scene, const Settings& settings);
 
@@ -89,11 +89,9 @@ class DartWorld : public World, public ReportsReactions, public ReportsContacts,
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override {}  // DART always keeps them
   std::vector<ReportedContact> contacts() const override;
-  std::unique_ptr<SavedState> save() const override;
-  void restore(const SavedState& state) override;
 
  private:
-  void archive_state(StateArchive& archive);
+  void archive_state(StateArchive& archive) override;
   void set_solver(const Settings& settings);
   void set_constants(const Settings& settings);
   void close_loops(const Scene& scene, const SpanningTree& tree);
@@ -105,7 +103,6 @@ class DartWorld : public World, public ReportsReactions, public ReportsContacts,
     return static_cast<const con::BoxedLcpConstraintSolver&>(*world_->getConstraintSolver());
   }
 
-  StateOwner owner_;
   std::vector<bool> fixed_;
   std::vector<BodyState> standing_;
   ExternalLoads loads_;
@@ -126,7 +123,7 @@ class DartWorld : public World, public ReportsReactions, public ReportsContacts,
 };
 
 DartWorld::DartWorld(const Scene& scene, const Settings& settings)
-    : owner_("dart", DART_VERSION, scene, settings),
+    : ArchivesState("dart", DART_VERSION, scene, settings),
       loads_(external_part(scene, spanning_tree(scene))),
       can_touch_(anything_can_touch(scene)),
       matched_(settings.track == Track::matched),
@@ -266,15 +263,6 @@ std::vector<ReportedContact> DartWorld::contacts() const {
     contacts.push_back({body_of(at.collisionObject2), body_of(at.collisionObject1), at.point, at.normal,
                         -at.penetrationDepth, at.force});
   return contacts;
-}
-
-std::unique_ptr<SavedState> DartWorld::save() const {
-  // An archive that saves changes nothing.
-  return owner_.save([this](StateArchive& archive) { const_cast<DartWorld*>(this)->archive_state(archive); });
-}
-
-void DartWorld::restore(const SavedState& state) {
-  owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
 }
 
 // Coordinates and speeds, as DART's own Skeleton::Configuration has them. DART keeps the multipliers of limits, motors

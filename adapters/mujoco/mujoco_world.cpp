@@ -72,7 +72,7 @@ std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
 }  // namespace
 
 MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
-    : owner_("mujoco", fmt::format("{}", mj_version()), scene, settings),
+    : ArchivesState("mujoco", fmt::format("{}", mj_version()), scene, settings),
       scene_(only_forces(scene)),
       tree_(spanning_tree(scene)),
       made_((mujoco_library::start(), mujoco_model(scene, tree_, settings))),
@@ -109,16 +109,6 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
   }
 }
 
-std::unique_ptr<SavedState> MujocoWorld::save() const {
-  // An archive that saves changes nothing.
-  return owner_.save([this](StateArchive& archive) { const_cast<MujocoWorld*>(this)->archive_state(archive); });
-}
-
-void MujocoWorld::restore(const SavedState& state) {
-  owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
-  is_step_in_data_ = false;  // the poses of jointed bodies are worked out when they are read
-}
-
 // Positions, velocities and the start of the solver's next iteration: nothing else of MuJoCo's outlives a step.
 void MujocoWorld::archive_state(StateArchive& archive) {
   const auto size = [](int count) { return static_cast<std::size_t>(count); };
@@ -126,6 +116,7 @@ void MujocoWorld::archive_state(StateArchive& archive) {
   archive.numbers(data_->qpos, size(made_.model->nq));
   archive.numbers(data_->qvel, size(made_.model->nv));
   archive.numbers(data_->qacc_warmstart, size(made_.model->nv));
+  if (archive.restores()) is_step_in_data_ = false;  // the poses of jointed bodies are worked out when they are read
 }
 
 void MujocoWorld::step(double dt) {

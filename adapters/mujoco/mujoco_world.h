@@ -10,7 +10,7 @@
 
 namespace rigor {
 
-class MujocoWorld : public World, public ReportsReactions, public ReportsContacts, public SavesState {
+class MujocoWorld : public World, public ReportsReactions, public ReportsContacts, public ArchivesState {
  public:
   MujocoWorld(const Scene& scene, const Settings& settings);
 
@@ -22,22 +22,19 @@ class MujocoWorld : public World, public ReportsReactions, public ReportsContact
   Capabilities capabilities() override {
     return {.reactions = this, .contacts = made_.model->opt.integrator == mjINT_RK4 ? nullptr : this, .state = this};
   }
-  std::unique_ptr<SavedState> save() const override;
-  void restore(const SavedState& state) override;
   void ask_for_reactions() override { is_asked_ = said_.are_said(); }
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override {}  // MuJoCo always keeps them
   std::vector<ReportedContact> contacts() const override;
 
  private:
-  void archive_state(StateArchive& archive);
+  void archive_state(StateArchive& archive) override;
   void apply_loads(double dt);
   void look_for_warnings();
   void note_reactions() const;
   void read_free(MutableBodyColumns out, std::size_t body) const;
   void read_jointed(MutableBodyColumns out, std::size_t body) const;
 
-  StateOwner owner_;
   Scene scene_;  // without its springs and joint springs, which MuJoCo has itself
   SpanningTree tree_;
   MujocoModel made_;

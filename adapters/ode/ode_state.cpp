@@ -25,15 +25,6 @@ void put_bits(const std::array<dReal, N>& numbers, const dReal* into) {
 
 }  // namespace
 
-std::unique_ptr<SavedState> OdeWorld::save() const {
-  // An archive that saves changes nothing.
-  return owner_.save([this](StateArchive& archive) { const_cast<OdeWorld*>(this)->archive_state(archive); });
-}
-
-void OdeWorld::restore(const SavedState& state) {
-  owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
-}
-
 void OdeWorld::archive_state(StateArchive& archive) {
   archive(clock_, lost_, random_seed_, solver_warning_, loads_, *joints_);
   for (const dBodyID body : bodies_)

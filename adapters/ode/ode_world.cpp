@@ -79,7 +79,7 @@ void refuse_infinite_friction_that_rolls(const Scene& scene) {
 }  // namespace
 
 OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
-    : owner_("ode", dODE_VERSION, scene, settings),
+    : ArchivesState("ode", dODE_VERSION, scene, settings),
       laws_(scene),
       loads_(scene),
       can_touch_(anything_can_touch(scene)),

@@ -22,7 +22,7 @@ namespace rigor {
 // method `auto` leaves scenes of more than so many moving bodies that can touch to the sweeps.
 inline constexpr int kMostForWorldStep = 50;
 
-class OdeWorld : public World, public ReportsReactions, public ReportsContacts, public SavesState {
+class OdeWorld : public World, public ReportsReactions, public ReportsContacts, public ArchivesState {
  public:
   OdeWorld(const Scene& scene, const Settings& settings);
   ~OdeWorld() override;
@@ -38,11 +38,9 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts, 
   std::vector<ReportedReaction> reactions() const override;
   void ask_for_contacts() override { reports_contacts_ = true; }
   std::vector<ReportedContact> contacts() const override;
-  std::unique_ptr<SavedState> save() const override;
-  void restore(const SavedState& state) override;
 
  private:
-  void archive_state(StateArchive& archive);
+  void archive_state(StateArchive& archive) override;
   static void archive_body(StateArchive& archive, dBodyID body);
   void archive_order(StateArchive& archive);
   void apply(const Settings& settings, const Scene& scene);
@@ -63,7 +61,6 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts, 
   void add_contacts(dGeomID a, dGeomID b);
   void note_contact(dJointID joint, const dContactGeom& found);
 
-  StateOwner owner_;
   std::vector<dBodyID> bodies_;      // null for a fixed body
   std::vector<BodyState> standing_;  // where a fixed body stands, by body index
   ContactLaws laws_;

@@ -119,4 +119,12 @@ std::string_view StateOwner::opened(const SavedState& state) const {
   return head.left();
 }
 
+std::unique_ptr<SavedState> ArchivesState::save() const {
+  return owner_.save([this](StateArchive& archive) { const_cast<ArchivesState*>(this)->archive_state(archive); });
+}
+
+void ArchivesState::restore(const SavedState& state) {
+  owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
+}
+
 }  // namespace rigor

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/engine/capabilities.h"
 #include "core/engine/engine.h"
 #include "core/engine/state_archive.h"
 
@@ -46,6 +47,22 @@ class StateOwner {
 
   std::string engine_, version_, run_;
   std::uint64_t scene_;
+};
+
+// A world whose whole state goes through an archive.
+class ArchivesState : public SavesState {
+ public:
+  ArchivesState(std::string engine, std::string version, const Scene& scene, const Settings& settings)
+      : owner_(std::move(engine), std::move(version), scene, settings) {}
+
+  std::unique_ptr<SavedState> save() const final;
+  void restore(const SavedState& state) final;
+
+ private:
+  // All that the next steps depend on. An archive that saves changes nothing.
+  virtual void archive_state(StateArchive& archive) = 0;
+
+  StateOwner owner_;
 };
 
 // For tests of damaged content: the same bytes with a checksum that fits them.
