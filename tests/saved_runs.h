@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/engine/engine.h"
+#include "tests/state_of.h"
 
 namespace rigor::test {
 
@@ -25,12 +25,6 @@ inline std::string bits_apart(BodyColumns found, BodyColumns due) {
   return "";
 }
 
-inline BodyTable state_now(const World& world) {
-  Snapshot now;
-  world.read(now);
-  return BodyTable(now.bodies());
-}
-
 // A run that was saved after 0, `every`, 2 `every`, ... steps, with its states.
 struct SavedRun {
   double dt = 0;
@@ -43,7 +37,7 @@ inline SavedRun saved_run(World& world, double dt, long steps, long every) {
   SavedRun run{dt, every, {}, {}};
   for (long n = 0; n <= steps; ++n) {
     if (n > 0) world.step(dt);
-    run.states.push_back(state_now(world));
+    run.states.push_back(state_of(world));
     if (n % every == 0) run.saved.push_back(world.capabilities().state->save());
   }
   return run;
@@ -57,7 +51,7 @@ inline std::string restored_apart(World& world, const SavedRun& run) {
                       last = std::min(first + static_cast<std::size_t>(run.every) + 2, run.states.size() - 1);
     for (std::size_t n = first; n <= last; ++n) {
       if (n > first) world.step(run.dt);
-      const std::string apart = bits_apart(state_now(world).columns(), run.states[n].columns());
+      const std::string apart = bits_apart(state_of(world).columns(), run.states[n].columns());
       if (!apart.empty()) return fmt::format("saved after {} steps, after {}: {}", first, n, apart);
     }
   }

@@ -11,6 +11,7 @@
 #include "adapters/engines.h"
 #include "core/engine/run_name.h"
 #include "tests/scenes.h"
+#include "tests/state_of.h"
 
 namespace rigor {
 
@@ -68,12 +69,6 @@ inline void for_each_undamped_run(const Scene& scene, double dt, const std::func
   for_each_run(scene, dt, [&](const Run& run) {
     if (run.name() != "bullet:multibody@stock" && run.name() != "simbody:cpodes@stock") check(run);
   });
-}
-
-inline BodyTable state_of(const World& world) {
-  Snapshot snapshot;
-  world.read(snapshot);
-  return BodyTable(snapshot.bodies());
 }
 
 inline BodyTable state_after(World& world, double dt, int steps) {

@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(states_of_bodies_alone_are_not_enough) {
     const auto world = core_world(row.scene, row.run);
     for (long n = 0; n < row.steps; ++n) world->step(row.dt);
     Scene bodies_alone = row.scene;
-    const BodyTable now = state_now(*world);
+    const BodyTable now = state_of(*world);
     for (std::size_t i = 0; i < bodies_alone.bodies.size(); ++i) {
       Body& body = bodies_alone.bodies[i];
       if (body.fixed) continue;
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(states_of_bodies_alone_are_not_enough) {
     }
     const auto other = core_world(bodies_alone, row.run);
     for (int n = 0; n < 5; ++n) world->step(row.dt), other->step(row.dt);
-    BOOST_TEST(bits_apart(state_now(*other).columns(), state_now(*world).columns()) != "", row.run);
+    BOOST_TEST(bits_apart(state_of(*other).columns(), state_of(*world).columns()) != "", row.run);
   }
 }
 
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(damaged_states_are_refused_and_change_nothing) {
     BOOST_TEST(why_refused(*world, SavedBytes(damaged)) != "", k);
   }
   for (int n = 0; n < 10; ++n) world->step(0.01), due->step(0.01);
-  BOOST_TEST(bits_apart(state_now(*world).columns(), state_now(*due).columns()) == "");
+  BOOST_TEST(bits_apart(state_of(*world).columns(), state_of(*due).columns()) == "");
 }
 
 BOOST_AUTO_TEST_CASE(states_of_others_are_refused_with_the_reason) {
