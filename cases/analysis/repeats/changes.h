@@ -35,7 +35,7 @@ struct RepeatChange {
   // The runs under the change. Empty if it does not apply, with the reason. It loads no world: each run has a process
   // of its own, and what an engine starts in this one would be in all of them.
   std::vector<ChangedRun> (*runs)(const RepeatedRun& run, std::string& why_not);
-  bool enlarges = false;  // the scene: an engine that has no memory for it is not broken
+  bool enlarges = false;  // the scene; an engine that refuses it is not broken
 };
 
 const std::vector<RepeatChange>& repeat_changes();

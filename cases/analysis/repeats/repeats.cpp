@@ -131,7 +131,7 @@ class Repeater {
       if (end.how == Ending::finished) return;
       for (std::size_t n = first[job]; n < outcomes_.size() && outcomes_[n].change == outcomes_[first[job]].change;
            ++n) {
-        if (!outcomes_[n].is_run) fail(outcomes_[n], sentence_of(end, options_.limit));
+        if (!outcomes_[n].is_run) fail(outcomes_[n], end);
       }
     };
     run_jobs(jobs, options_.jobs, on_message, on_end);
@@ -145,12 +145,14 @@ class Repeater {
     outcomes_.push_back(outcome);
   }
 
-  static void fail(RepeatOutcome& outcome, const std::string& sentence) {
+  // An engine may refuse a larger scene. One that crashes there, or does not end, has failed.
+  void fail(RepeatOutcome& outcome, const JobEnd& end) const {
     const auto& changes = repeat_changes();
     const auto change = std::find_if(changes.begin(), changes.end(),
                                      [&](const RepeatChange& row) { return row.name == outcome.change; });
-    outcome.has_failed = !change->enlarges;
-    outcome.why = (change->enlarges ? "the engine cannot run so large a scene: " : "") + sentence;
+    const bool has_refused = change->enlarges && (end.how == Ending::threw || end.how == Ending::refused);
+    outcome.has_failed = !has_refused;
+    outcome.why = (has_refused ? "the engine cannot run so large a scene: " : "") + sentence_of(end, options_.limit);
   }
 
   // The runs of one change, in a process of their own.
