@@ -44,7 +44,10 @@ void add_pieces(const RecordedTrial& trial, double length, std::vector<RecordedT
   for (std::size_t first = 0; times.back() - times[first] >= length * (1 - kRounding);) {
     std::size_t last = first;
     while (last + 1 < times.size() && times[last + 1] - times[first] <= most) ++last;
-    if (last == first) ++last;  // one interval is longer than a piece
+    if (last == first) {  // what happened in a longer interval was not measured
+      ++first;
+      continue;
+    }
     RecordedTrial piece;
     piece.name = fmt::format("{} from {:.6g} s", trial.name, times[first]);
     piece.duration = times[last] - times[first];

@@ -8,7 +8,8 @@
 
 namespace rigor {
 
-// Pieces of at most `length` [s], the next from where the last ended; what is left of a trial at its end is dropped.
+// Pieces of at most `length` [s], each from where the one before ended. Dropped are what is left of a trial at its end,
+// and intervals that are longer than a piece.
 // Called "3 from 0.2 s" after the trial. A trial of several bodies has to have them measured at the same instants;
 // throws InputError with a sentence otherwise, and if no trial is as long as a piece.
 std::vector<RecordedTrial> pieces_of(const std::vector<RecordedTrial>& trials, double length);
