@@ -229,7 +229,8 @@ class TruthCommand : public Command {
     if (definition.truth == "none")
       throw InputError(fmt::format("{}: the case states no truth (truth.kind is \"none\")", definition.id));
     if (reactions_) {
-      const std::string why = why_reactions_are_unknown(definition.scene);
+      const std::string why = definition.truth == "recording" ? "a recording does not say what joints carry"
+                                                              : why_reactions_are_unknown(definition.scene);
       if (!why.empty()) throw InputError(fmt::format("{}: --reactions: {}", definition.id, why));
     }
     if (duration_.seconds) definition.duration = *duration_.seconds;

@@ -1,5 +1,5 @@
-// What joints carry, as rigor truth and rigor trace print it: a rod that is released level against the equations of a
-// compound pendulum, which share no code with Rigor.
+// `rigor truth --reactions` and `rigor trace --reactions`, for a rod that is released level. The equations of a
+// compound pendulum, which share no code with Rigor, say what its joint carries.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <sstream>
@@ -140,6 +140,7 @@ BOOST_FIXTURE_TEST_CASE(what_cannot_be_printed_is_refused, WithRod) {
   refused({"trace", rod(), "--engine", "ode", "--reactions", "--format", "mcap"}, "csv only");
   refused({"truth", "springs/fixed-spring", "--reactions"}, "no joints");
   refused({"truth", "joints/pendulum-at-stop", "--reactions"}, "has limits");
+  refused({"truth", "reality/synthetic-tosses", "--reactions"}, "a recording does not say what joints carry");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
