@@ -22,7 +22,7 @@ Json index_data(const SiteData& data);
 Json engine_data(const SiteData& data, const EngineRuns& engine, const EngineHistory& history);
 Json case_data(const SiteData& data, const Json& of_results, std::size_t of_case);
 
-// Of results in the form of a results.json: the part of each case, in the same form, in the order of the cases.
+// Parts of a results.json, one for each case, in the form of a results.json and in the order of the cases.
 std::vector<Json> parts_by_case(const Json& results);
 
 // A whole page at this address of the site, without a script.

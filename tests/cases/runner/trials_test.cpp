@@ -135,8 +135,8 @@ BOOST_AUTO_TEST_CASE(bad_keys_are_refused_with_their_place) {
   says(refusal("slide.csv", "../slide.csv"), "not in the case file's folder");
 }
 
-// From 0.05 to 0.1 s and so on, each as a trial of its own: what friction of a third too much makes is a quarter as
-// large in half the time, and noise is not.
+// Each of two trials of 0.2 s makes two pieces of 0.1 s. Friction that is a third too large makes a quarter of the error
+// in half the time.
 BOOST_AUTO_TEST_CASE(pieces_of_trials_are_trials_with_starts_of_their_own) {
   Folder folder;
   folder.write("slide.csv", test::sliding_recording(0.3, 2, 1));

@@ -67,8 +67,8 @@ const std::map<std::string, test::AdamsTable>& cited() {
 
 std::string path_of(const AdamsCase& one) { return "published/" + one.id; }
 
-// What the one body of a scene pushes the ground with: all loads on it but gravity, the other way round. An actuator's
-// effort is none of them; it follows from the motion, which has no acceleration.
+// The force with which the one body of a scene pushes the ground: all loads on it but gravity, the other way round. An
+// actuator's effort is none of them. It follows from the motion, which has no acceleration.
 class GroundLoads {
  public:
   GroundLoads(const Scene& scene, const Vec3& marker)
