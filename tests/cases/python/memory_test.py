@@ -59,15 +59,16 @@ def test_runs_in_a_loop_leave_nothing_behind(case, tmp_path, monkeypatch):
     assert glob.glob(f"{tmp_path}/rigor-*") == [] and children() == []
 
 
-def test_engines_in_a_loop_leave_nothing_behind(case):
+def test_engines_in_a_loop_leave_nothing_behind(case, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))  # other tests write to the user's cache meanwhile
     folders = set()
 
     def work():
         rigor.trace(case, engine=FreeBodies, dt="1/10")
-        folders.add(len(glob.glob(os.path.expanduser("~/.cache/rigor/python/*"))))
+        folders.add(len(os.listdir(tmp_path / "rigor" / "python")))
 
     grown = growth(work, 12)
-    assert grown < ALLOWED and len(folders) == 1 and children() == []
+    assert grown < ALLOWED and folders == {1} and children() == []
 
 
 def test_what_is_kept_is_found(case):
