@@ -315,7 +315,7 @@ bool Joints::close(BodyColumns start, double h, const std::function<BodyColumns(
     aim_rotors(start, h);
     const double gap = rows_.measure_gaps(attempt(rows_.wrench_of(total_multipliers_)));
     if (is_closed(gap, last, within)) return turn_rotors(), std::isfinite(gap);
-    if (gap > extent_) return false;
+    if (gap > extent_ || gap > last) return false;
     solve_for([h](const JointRow& joint) -> Vec6 { return -joint.gap / h; });
     for (std::size_t k = 0; k < rows_.size(); ++k) total_multipliers_[k] += multipliers_[k];
     last = gap;

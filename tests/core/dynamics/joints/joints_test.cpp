@@ -193,6 +193,27 @@ BOOST_AUTO_TEST_CASE(a_distance_between_particles_is_closed_in_any_unit_of_lengt
   }
 }
 
+// At these steps a body turns so far that the iteration for the joints' impulse comes to another solution, or to none,
+// unless it is given up when the gap grows. The energy then grew by half, or without bounds.
+BOOST_AUTO_TEST_CASE(joints_close_at_the_nearest_pose_or_are_projected) {
+  const Scene scene = test::suite_scene("mechanisms/mujoco-pendulum");
+  constexpr double kInPlay = 296;  // J, as the verdict has it
+  for (const double dt : {1.0 / 30, 1.0 / 60}) {
+    const auto world = CoreEngine().load(scene, {.method = "semi-implicit-euler", .options = {}});
+    Snapshot snapshot;
+    world->read(snapshot);
+    const double start = energy(scene, snapshot.bodies());
+    double most = 0;
+    for (int n = 0; n < 3 / dt; ++n) {
+      test::step_until(*world, dt, dt);
+      world->read(snapshot);
+      most = std::max(most, std::abs(energy(scene, snapshot.bodies()) - start));
+    }
+    // The half step between velocities and poses alone is worth 3.5 % here.
+    BOOST_TEST(most < 0.1 * kInPlay, most << " J at " << dt << " s");
+  }
+}
+
 // The mass-weighted least-norm projection: two bodies on one ball joint, separated by a gap, each move by their share
 // of the inverse masses, because the anchor is at both centres.
 BOOST_AUTO_TEST_CASE(projection_moves_each_body_by_its_inverse_mass) {
