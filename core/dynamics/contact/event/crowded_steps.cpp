@@ -53,21 +53,21 @@ void CrowdedSteps::archive_state(StateArchive& archive) {
   stepper_->archive_state(archive);
 }
 
-double CrowdedSteps::short_of_passing(BodyColumns state, double h) const {
-  constexpr double kShortest = 1.0 / 64;  // of h
-  double share = 1;
+double CrowdedSteps::short_of_passing(BodyColumns state, double rest, double longest) const {
+  constexpr double kShortest = 1.0 / 64;  // of the longest; of the rest it would never come to its end
+  double h = longest;
   for (const Collider& collider : contact_points_.colliders()) {
     if (collider.fixed) continue;
     const double speed =
         state.velocity(collider.body).norm() + state.angular_velocity(collider.body).norm() * collider.bounding_radius;
-    share = std::min(share, collider.inradius / (speed * h));
+    h = std::min(h, collider.inradius / speed);
   }
-  return std::max(share, kShortest) * h;
+  return std::min(std::max(h, kShortest * longest), rest);
 }
 
-double CrowdedSteps::take(MutableBodyColumns state, double t, double h) {
+double CrowdedSteps::take(MutableBodyColumns state, double t, double rest, double longest) {
   solver_warning_.clear();
-  h = short_of_passing(state, h);
+  const double h = short_of_passing(state, rest, longest);
   stepper_->step(state, t, h);
   free_ = BodyColumns(state);
   stop_overlaps(state, h);

@@ -21,9 +21,9 @@ class CrowdedSteps {
 
   // s, of a step of the run that is dt long.
   double longest(double dt) const;
-  // Steps from t over h [s] or less, so that no body moves by more than its inradius. Returns the length. Some overlap
-  // remains to be closed.
-  double take(MutableBodyColumns state, double t, double h);
+  // Steps from t over `rest` or `longest` [s], or less, so that no body moves by more than its inradius. It is never less
+  // than a small part of `longest`, unless the rest is. Returns the length. Some overlap remains to be closed.
+  double take(MutableBodyColumns state, double t, double rest, double longest);
   // The contacts of the last step, and the impulse on the body a of each [N s, in W].
   const std::vector<ContactPoint>& contacts() const { return touching_; }
   const std::vector<Vec3>& impulses() const { return impulses_; }
@@ -34,7 +34,7 @@ class CrowdedSteps {
   void archive_state(StateArchive& archive);
 
  private:
-  double short_of_passing(BodyColumns state, double h) const;
+  double short_of_passing(BodyColumns state, double rest, double longest) const;
   void stop_overlaps(MutableBodyColumns state, double h);
   Vec3 impulse_before(const ContactPoint& contact) const;
   void solve_where_they_came_to(MutableBodyColumns state);

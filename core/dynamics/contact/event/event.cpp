@@ -297,7 +297,7 @@ class EventStepper : public ContactStepper {
     is_smooth_ = false;
     if (patience_ > 1 && longest > instant_) note("events crowd more than its patience allows");
     if (!crowded_from_ && longest > instant_) crowded_from_ = part_.t + part_.from;
-    const double h = crowded_.take(state, part_.t + part_.from, std::min(part_.length(), longest));
+    const double h = crowded_.take(state, part_.t + part_.from, part_.length(), longest);
     for (std::size_t i = 0; i < crowded_.contacts().size() && forces_.is_asked(); ++i)
       forces_.add(crowded_.contacts()[i], crowded_.contacts()[i].cone, state, crowded_.impulses()[i]);
     contact_points_.note_turns(state, h);
