@@ -61,6 +61,14 @@ bool is_needed(bool MetricNeeds::*need, const Case& definition, const GridOption
   return is_asked_for(metrics_that_need(need), definition, options);
 }
 
+// A gate or an option can ask for it at any cost; in other thorough runs it is not to double the wait.
+bool is_repeated(const Simulation& run, const Case& definition, const GridOptions& options) {
+  constexpr double kQuick = 1;  // s of CPU time
+  const Names repeats = {"repeats"};
+  return is_asked_for(repeats, definition, options) &&
+         (run.cpu_seconds < kQuick || has_gate_on(definition, repeats) || has_option_for(repeats, options));
+}
+
 // Steps from one whose reactions are asked for to the next, as far as the truth is good for; 0: none is.
 long steps_between_reports(const Case& definition, double dt, const TruthFacts& facts, const GridOptions& options) {
   const bool is_wanted = options.only_metrics.empty() || is_needed(&MetricNeeds::reactions, definition, options);
@@ -145,7 +153,7 @@ JudgedCell run_once(const Cell& planned, const Case& definition, const EngineTab
   if (reference && wants_ensembles) ensembles = reference->compare(engines, run_name, definition, cell.dt.seconds);
   if (ensembles) judged.ensembles = &*ensembles;
   std::optional<Trajectory> again;
-  if (is_asked_for({"repeats"}, definition, options)) {
+  if (is_repeated(run, definition, options)) {
     again = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration, {.is_timed = false})
                 .trajectory;
     judged.again = &*again;
