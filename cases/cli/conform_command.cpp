@@ -8,6 +8,7 @@
 #include "cases/analysis/conformance/conformance.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/progress/progress.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/json/mistakes_json.h"
 #include "cases/report/wording/mistakes.h"
@@ -55,12 +56,16 @@ void send_results(const Trial& trial, std::size_t first, const Channel& channel)
 Json results_of(const Trial& trial, const EngineTable& engines, double limit) {
   const auto& checks = conformance_checks();
   Json results = Json::array();
+  Progress progress("checks");
   while (results.size() < checks.size()) {
     const auto work = [&](const Channel& channel) {
       send_results(trial, results.size(), channel);
       engines.rest();
     };
-    const auto on_message = [&](std::size_t, const std::string& message) { results.push_back(parse_json(message)); };
+    const auto on_message = [&](std::size_t, const std::string& message) {
+      results.push_back(parse_json(message));
+      progress.show(results.size(), checks.size());
+    };
     const auto on_end = [&](std::size_t, const JobEnd& end) {
       if (results.size() == checks.size()) return;
       const ConformanceCheck& check = checks[results.size()];

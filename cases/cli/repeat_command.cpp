@@ -12,6 +12,7 @@
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
+#include "cases/cli/progress/progress.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/report/json/pairs/repeats_json.h"
 #include "cases/report/wording/printed_command.h"
@@ -109,8 +110,7 @@ class RepeatCommand : public Command {
     Json all = Json::array();
     int code = kGood;
     for (const Case& definition : cases) {
-      RepeatOptions options{jobs_.count, timeout_.seconds, [&] { return hashes_elsewhere(definition, name); }};
-      const RepeatReport report = repeat(engines, definition, name, definition.dt.front(), options);
+      const RepeatReport report = watched_repeat(engines, definition, name);
       if (!report.repeats()) code = kGateFailed;
       if (json_.is_on) {
         all.push_back(repeats_json(report));
@@ -120,6 +120,13 @@ class RepeatCommand : public Command {
     }
     if (json_.is_on) print(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     return code;
+  }
+
+  RepeatReport watched_repeat(const EngineTable& engines, const Case& definition, const RunName& name) const {
+    Progress progress("changes");
+    RepeatOptions options{jobs_.count, timeout_.seconds, [&] { return hashes_elsewhere(definition, name); },
+                          [&](std::size_t done, std::size_t all) { progress.show(done, all); }};
+    return repeat(engines, definition, name, definition.dt.front(), options);
   }
 
   // By this program, started anew.

@@ -127,7 +127,9 @@ class Repeater {
       if (runs.empty()) first.pop_back();
     }
     const auto on_message = [&](std::size_t job, const std::string& text) { take(first[job], parse_json(text)); };
+    std::size_t done = 0;
     const auto on_end = [&](std::size_t job, const JobEnd& end) {
+      if (options_.on_changes) options_.on_changes(++done, jobs.size());
       if (end.how == Ending::finished) return;
       for (std::size_t n = first[job]; n < outcomes_.size() && outcomes_[n].change == outcomes_[first[job]].change;
            ++n) {

@@ -1,6 +1,7 @@
 // Whether a run gives the same bits under each change that should not matter.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ struct RepeatOptions {
   int jobs = 1;
   double limit = 120;  // s of CPU time for a run
   HashesElsewhere elsewhere = {};
+  std::function<void(std::size_t done, std::size_t all)> on_changes = {};  // after each change that was tried
 };
 
 // The states of the run, from a process of its own. Throws InputError where the engine cannot run the scene.

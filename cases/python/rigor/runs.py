@@ -248,7 +248,7 @@ def repeat(cases: Cases, *, engine: typing.Any, dt: typing.Any = None, duration:
     return Repeats(program.checked(call.printed(progress), (0, 1)), not files)
 
 
-def conform(engine: typing.Any, *, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = False,
+def conform(engine: typing.Any, *, plugins: typing.Any = (), in_process: bool | None = None, progress: Progress = None,
             **options: typing.Any) -> Conformance:
     """Checks an engine against the interface: ``assert rigor.conform(MyEngine)``. The answer's text names each broken check."""
     call = _Call("conform", None, engine, plugins, in_process, {"json": True, **options})

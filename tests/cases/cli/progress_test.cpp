@@ -143,6 +143,12 @@ BOOST_AUTO_TEST_CASE(without_a_terminal_each_long_command_says_how_far_it_is) {
   const Program::Answer found = program.run({"diagnose", "stone.toml", "--engine", "ode", "--jobs", "1"});
   BOOST_TEST(found.code == 0, found.err);
   BOOST_TEST(lines_with(found.err, "rigor: \\d+ motions after \\d+ s\n") >= 1u, found.err);
+  const Program::Answer repeated = program.run({"repeat", "stone.toml", "--engine", "ode", "--jobs", "1"});
+  BOOST_TEST(repeated.code == 0, repeated.err);
+  BOOST_TEST(lines_with(repeated.err, "rigor: \\d+ of \\d+ changes after \\d+ s.*\n") >= 1u, repeated.err);
+  const Program::Answer checked = program.run({"conform", "--engine", "ode"});
+  BOOST_TEST(checked.code == 0, checked.err);
+  BOOST_TEST(lines_with(checked.err, "rigor: \\d+ of \\d+ checks after \\d+ s.*\n") >= 1u, checked.err);
 }
 
 // Only of this machine, and only if the file is whole.

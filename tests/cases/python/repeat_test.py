@@ -85,6 +85,15 @@ def test_an_engine_that_fails_is_an_error_of_one_sentence(fall, in_process):
     assert "\n" not in str(caught.value)
 
 
+def test_progress_is_told(fall):
+    told = []
+    assert rigor.repeat(fall, engine="core:rk4", dt="1/50", progress=lambda done, all_: told.append((done, all_)))
+    assert told and all(0 < done <= all_ for done, all_ in told)
+    told.clear()
+    assert rigor.conform("core:rk4", progress=lambda done, all_: told.append((done, all_)))
+    assert told and all(0 < done <= all_ for done, all_ in told)
+
+
 def test_several_cases_are_several_rows(fall):
     found = rigor.repeat([fall, "ballistic/free-fall"], engine="core:rk4", dt="1/50", duration=0.5)
     assert found and [run["case"] for run in found.runs] == [fall, "ballistic/free-fall"]
