@@ -35,21 +35,43 @@ void round_numbers(Json& json) {
   }
 }
 
+void erase_nulls(Json& object) {
+  for (auto it = object.begin(); it != object.end();) it = it->is_null() ? object.erase(it) : std::next(it);
+}
+
 // Removes metrics that do not apply, and what the page does not show of the others. The end of the comparison stays
-// where it is not the end of the run.
+// where it is not the end of the run. An error's own value is what was found, and 0 what was expected, if nothing else
+// is said.
 void shorten_metrics(Json& metrics, double duration) {
   Json kept = Json::object();
   for (auto& [name, metric] : metrics.items()) {
     if (metric.contains("not_applicable")) continue;
     metric.erase("first_second"), metric.erase("unit");
+    if (auto worst = metric.find("worst"); worst != metric.end() && worst->is_object() && (*worst)["expected"] == 0 &&
+                                           (*worst)["found"] == metric["value"])
+      worst->erase("found"), worst->erase("expected");
     if (metric.value("compared_until", Json()) == duration) metric.erase("compared_until");
     kept[name] = std::move(metric);
   }
   metrics = std::move(kept);
 }
 
+// A row of the page's table has the run, the step and the value of an answer; the text says the rest.
+void shorten_gate(Json& gate) {
+  for (Json& answer : gate["answers"]) {
+    answer.erase("value");
+    if (answer["caveat"] == "") answer.erase("caveat");
+    if (answer["answer"] != "held" || answer["dt"] == "") continue;
+    const std::string text = answer["text"];
+    const std::size_t comma = text.find(", ");
+    answer["text"] = comma == std::string::npos ? "" : text.substr(comma + 2);
+  }
+  erase_nulls(gate);
+}
+
 void shorten_case(Json& one) {
   one.erase("spread"), one.erase("explanation_claims");
+  for (Json& gate : one["gates"]) shorten_gate(gate);
   for (Json& table : one["work_precision"]) table.erase("at_equal_cost");
   Json orders = Json::array();
   for (Json& order : one["observed_order"])
@@ -65,6 +87,8 @@ void shorten_cell(Json& cell, double duration) {
   for (const Json& gate : cell["gates"])
     if (gate["answer"] == "failed") failed.push_back({{"answer", "failed"}});
   cell["gates"] = std::move(failed);
+  for (const char* rare : {"reduced_order", "sub_step"})
+    if (cell[rare].is_null()) cell.erase(rare);
 }
 
 // A step as a number of C: "1/30", pasted as it is, would be an integer division.

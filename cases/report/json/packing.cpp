@@ -72,7 +72,7 @@ std::string deflated(const std::string& bytes) {
   std::string out(compressBound(bytes.size()), '\0');
   uLongf size = out.size();
   const int answer = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_DEFAULT_COMPRESSION);
+                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
   if (answer != Z_OK) throw std::runtime_error("zlib could not deflate the report's data");
   out.resize(size);
   return out;
