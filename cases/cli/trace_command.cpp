@@ -175,9 +175,11 @@ class TraceCommand : public Command {
     refuse_too_many_rows(definition.scene, static_cast<double>(count), every_);
     return print_from_child(run.text, timeout_.seconds, [&](const Channel& channel) {
       try {
-        const Simulation done =
-            simulate(engine, run.settings, definition.scene, dt, definition.duration,
-                     {.steps_per_sample = every_, .reactions_every = reactions_ ? 1 : 0, .has_contacts = contacts_});
+        const Simulation done = simulate(engine, run.settings, definition.scene, dt, definition.duration,
+                                         {.steps_per_sample = every_,
+                                          .is_timed = false,
+                                          .reactions_every = reactions_ ? 1 : 0,
+                                          .has_contacts = contacts_});
         if (reactions_) refuse_unreported(done, definition.scene, run.text);
         if (contacts_ && !done.trajectory.has_contacts)
           throw InputError(fmt::format("{}: unsupported: the engine does not report contact forces here", run.text));
