@@ -46,7 +46,7 @@ export function numbersTable({ results, one, dt }) {
       "td",
       {
         title: w
-          ? `${isHeldToItself(cell, name) ? "held to a truth that its own code makes; " : ""}worst at ${digits(w.time)} s: ${w.body}, ${w.component}: found ${digits(w.found ?? metric.value, 6)}, expected ${digits(w.expected ?? 0, 6)}`
+          ? `${isHeldToItself(cell, name) ? "held to a truth that its own code makes; " : ""}worst at ${digits(w.time)} s: ${w.body}, ${w.component}: found ${digits(w.found, 6)}, expected ${digits(w.expected, 6)}`
           : "",
       },
       isHeldToItself(cell, name) ? `(${text})` : text,

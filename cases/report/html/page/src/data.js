@@ -2,19 +2,55 @@
 // cells. All of it is read from the report itself.
 import { digits, isNumber, quantity } from "./format.js";
 
-export async function unpacked(base64) {
+function inflating(base64) {
   const text = atob(base64),
     bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")));
 }
+
+export const unpacked = async (base64) => new Uint8Array(await inflating(base64).arrayBuffer());
 
 export async function loadResults() {
   const packed = JSON.parse(document.getElementById("rigor-results").textContent);
-  const results = JSON.parse(new TextDecoder().decode(await unpacked(packed.data)));
+  const results = await inflating(packed.data).json();
   const playback = JSON.parse(document.getElementById("rigor-playback").textContent);
   return indexed(results, playback);
+}
+
+// A row of packed_cells.h as the metric that results.json has, with its name.
+function unpackedMetric(row, strings) {
+  const rest = row.at(-1) !== null && typeof row.at(-1) === "object" ? row.at(-1) : null;
+  const [name, value, time, body, component, found, expected] = rest ? row.slice(0, -1) : row;
+  const metric = { value, ...rest };
+  if (time !== undefined)
+    metric.worst = {
+      time,
+      body: strings[body],
+      component: strings[component],
+      found: found === undefined ? value : found,
+      expected: expected === undefined ? 0 : expected,
+    };
+  return [strings[name], metric];
+}
+
+// The cells as results.json has them. A page of a site has them already. The metrics of a cell are unpacked when they
+// are first asked for, because the first screen shows a third of them.
+function unpackCells(results) {
+  const { strings, cell_settings: settings } = results;
+  if (!strings) return;
+  for (const cell of results.cells) {
+    const rows = cell.metrics;
+    Object.defineProperty(cell, "metrics", {
+      configurable: true,
+      get() {
+        const value = Object.fromEntries(rows.map((row) => unpackedMetric(row, strings)));
+        Object.defineProperty(cell, "metrics", { value });
+        return value;
+      },
+    });
+    cell.settings = settings[cell.settings];
+  }
 }
 
 // Results of an older schema lack these.
@@ -28,6 +64,7 @@ function fillGaps(results) {
 
 function indexed(results, playback) {
   fillGaps(results);
+  unpackCells(results);
   results.units = Object.fromEntries(results.metrics.map((m) => [m.name, m.unit]));
   results.summaries = Object.fromEntries(results.metrics.map((m) => [m.name, m.summary]));
   results.series = playback.series;
