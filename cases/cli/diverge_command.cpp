@@ -2,15 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "cases/analysis/divergence/divergence.h"
-#include "cases/cli/commands.h"
+#include "cases/case/selection.h"
+#include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
+#include "cases/cli/progress/plan_sentence.h"
 #include "cases/cli/progress/progress.h"
+#include "cases/report/html/data_element.h"
 #include "cases/report/json/pairs/divergence_json.h"
 #include "cases/report/wording/divergence.h"
 #include "cases/report/wording/printed_command.h"
-#include "cases/runner/grid.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
 
@@ -26,6 +29,8 @@ class DivergeCommand : public Command {
                  "a bound: 1mm, position=1cm, 1mrad, velocity=2cm/s; default: 1 mm for each metre of the scene, and "
                  "1 mrad"},
                 within_);
+    options.add({"--out", "DIR", "also write the reports of both runs to DIR; report.html shows where they part"},
+                [this](const std::string& text) { out_ = text; });
   }
 
   int run(const Invocation& invocation) override {
@@ -37,17 +42,61 @@ class DivergeCommand : public Command {
     override_run(definition, {steps, duration_.seconds});
     const PartingBounds bounds =
         within_.empty() ? default_parting_bounds(definition.scene) : parse_parting_bounds(within_);
-    const Divergence found = diverged(engines, definition, runs, bounds);
-    const std::vector<std::string> calls = calls_of(found);
-    if (json_.is_on) {
-      print(divergence_json(found, calls).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    } else {
-      print_table(text_of(found, command_of_winner(found), calls));
+    if (!out_) {
+      say_what_was_found(diverged(engines, definition, runs, bounds));
+      return kGood;
     }
-    return kGood;
+    const GridRequest asked = grid_of(invocation, definition);
+    OutputFolder folder = output_folder_of(asked);  // before any work
+    const Divergence found = diverged(engines, definition, runs, bounds);
+    say_what_was_found(found);
+    return write_page(found, asked, definition, engines, folder);
   }
 
  private:
+  std::string json_text(const Divergence& found) const {
+    return json_of(found).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+
+  Json json_of(const Divergence& found) const {
+    return divergence_json(found, command_of_winner(found), calls_of(found));
+  }
+
+  void say_what_was_found(const Divergence& found) const {
+    if (json_.is_on) return print(json_text(found));
+    print_table(text_of(found, command_of_winner(found), calls_of(found)));
+  }
+
+  // Both runs as a grid of this case.
+  GridRequest grid_of(const Invocation& invocation, const Case& definition) const {
+    GridRequest asked;
+    asked.invocation = invocation, asked.cases = cases_, asked.engines = engines_, asked.steps.dt = definition.dt;
+    asked.duration = duration_, asked.jobs = jobs_, asked.timeout = timeout_, asked.out.dir = *out_;
+    asked.deviations.dir = default_adapters_dir();
+    return asked;
+  }
+
+  // Runs the grid and writes the reports of `rigor run`, with what was found.
+  int write_page(const Divergence& found, const GridRequest& asked, const Case& definition, const EngineTable& engines,
+                 OutputFolder& folder) const {
+    std::vector<RunName> names = {found.a.name};
+    if (!is_same_run(found.a.name, found.b.name)) names.push_back(found.b.name);
+    GridRun run = plan_runs_of(definition, names, asked, engines);
+    say(plan_sentence(run.grid, asked));
+    GridOptions options = options_of(run, folder);
+    options.stable_steps = false;
+    run_with_progress(run.grid, engines, options, asked);
+    judge(run);
+    ReportAdditions added;
+    added.files = {{kDivergenceFile, json_text(found)}};
+    added.on_page = [&](const std::string& page) {
+      return with_data_element(page, kDivergenceElement, json_of(found));
+    };
+    added.can_resume = false;
+    const bool is_whole = write_reports(run.grid, folder, added);
+    return ending_of(run.grid, is_whole);
+  }
+
   // One engine at two steps, or two engines at one step or at one each.
   std::vector<DivergingRun> runs_of(const Case& definition, const EngineTable& engines) const {
     const std::vector<std::string>& names = engines_.engines;
@@ -105,6 +154,7 @@ class DivergeCommand : public Command {
   JsonOption json_;
   TimeoutOption timeout_;
   std::vector<std::string> within_;
+  std::optional<std::string> out_;
 };
 
 }  // namespace
@@ -116,6 +166,8 @@ CommandRow diverge_row() {
           "a case or a file",
           {{"rigor diverge joints/pendulum-90 --engine ode --engine bullet --dt 1/240", "two engines"},
            {"rigor diverge tops/dzhanibekov-box --engine ode --engine ode,gyroscopic=off --dt 1/60", "two settings"},
+           {"rigor diverge joints/pendulum-90 --engine ode --engine bullet --dt 1/240 --out parted",
+            "a page, parted/report.html, with both motions over each other"},
            {"rigor diverge robot.urdf --engine mujoco --dt 1/500 --dt 1/1000 --within position=1cm", "two steps"}},
           make_command<DivergeCommand>};
 }

@@ -11,6 +11,8 @@
 #include "cases/case/selection.h"
 #include "cases/cli/chosen_cases.h"
 #include "cases/cli/output.h"
+#include "cases/cli/progress/progress.h"
+#include "cases/cli/progress/time_left.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/gates/failures.h"
 #include "cases/gates/quick.h"
@@ -20,6 +22,7 @@
 #include "cases/report/reports.h"
 #include "cases/report/wording/printed_command.h"
 #include "cases/runner/build_identity.h"
+#include "cases/runner/ensemble.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
@@ -70,20 +73,31 @@ Results planned(const GridRequest& asked, const EngineTable& engines, const std:
   return plan_grid(cases, runs, engines, scope, of_gates);
 }
 
+std::string text_of_report(const ReportRow& report, const Results& grid, const ReportAdditions& added) {
+  std::string text = report.write(grid);
+  return report.name == "html" && added.on_page ? added.on_page(text) : text;
+}
+
 // Writes each report by itself, then moves all that could be written into place. Returns a sentence for each that could
-// not. The folder then keeps the results, so that --resume continues from them.
-std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& folder) {
+// not. The folder then keeps the results if --resume can continue from them.
+std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& folder, const ReportAdditions& added) {
   std::vector<std::string> faults, trajectories;
-  for (const ReportRow& report : reports()) {
+  std::size_t written = 0;
+  const auto write = [&](const std::string& file, const std::function<std::string()>& text) {
     try {
-      folder.write(report.file_name, report.write(grid));
+      folder.write(file, text());
+      ++written;
     } catch (const std::exception& error) {
-      faults.push_back(fmt::format("{} was not written: {}", report.file_name, error.what()));
+      faults.push_back(fmt::format("{} was not written: {}", file, error.what()));
     }
-  }
-  if (!faults.empty()) folder.keep();
-  if (faults.size() == reports().size()) {
-    faults.push_back("no report was written, so no output was changed; --resume continues the run");
+  };
+  for (const ReportRow& report : reports())
+    write(report.file_name, [&] { return text_of_report(report, grid, added); });
+  for (const auto& [file, text] : added.files) write(file, [&content = text] { return content; });
+  if (!faults.empty() && added.can_resume) folder.keep();
+  if (written == 0) {
+    faults.push_back(added.can_resume ? "no report was written, so no output was changed; --resume continues the run"
+                                      : "no report was written, so no output was changed");
     return faults;
   }
   for (const CaseResult& result : grid.cases) {
@@ -95,7 +109,9 @@ std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& fo
     }
   }
   folder.publish(trajectories);
-  if (!faults.empty()) faults.push_back("the other outputs are in place; --resume writes all of them again");
+  if (!faults.empty())
+    faults.push_back(added.can_resume ? "the other outputs are in place; --resume writes all of them again"
+                                      : "the other outputs are in place");
   return faults;
 }
 
@@ -150,6 +166,11 @@ int answer_of_gate(const GridRun& run, int ending) {
   return ending == kGood && !(all_gates_hold(run.grid) && unmet.empty()) ? int{kGateFailed} : ending;
 }
 
+std::size_t cells_to_run(const CaseResult& result) {
+  return static_cast<std::size_t>(std::count_if(result.cells.begin(), result.cells.end(),
+                                                [](const Cell& cell) { return cell.status != Status::unsupported; }));
+}
+
 }  // namespace
 
 void GridRequest::declare(Options& options) {
@@ -196,10 +217,18 @@ GridRun plan_run(const GridRequest& asked, const EngineTable& engines) {
   return {asked, engines, std::move(deviations), std::move(recorded), std::move(grid)};
 }
 
+GridRun plan_runs_of(const Case& definition, const std::vector<RunName>& runs, const GridRequest& asked,
+                     const EngineTable& engines) {
+  RecordedValues recorded = read_recorded_values(asked.deviations.dir, engines.infos());
+  if (asked.duration.seconds) recorded = {};  // of runs of other lengths
+  return {asked, engines, read_known_deviations(asked.deviations.dir, engines.infos()), std::move(recorded),
+          plan_grid({definition}, runs, engines, Scope{.stable_steps = false, .only_judged = false})};
+}
+
 OutputFolder output_folder_of(const GridRequest& asked) {
   if (!asked.invocation.leads()) return OutputFolder::of_helper(asked.out.dir);
   std::vector<std::string> files = report_files();
-  files.push_back(kPartFile);
+  files.insert(files.end(), {kPartFile, kDivergenceFile});
   return OutputFolder(asked.out.dir, files, asked.resume.is_on);
 }
 
@@ -237,6 +266,24 @@ std::vector<std::string> report_files() {
   return names;
 }
 
+void run_with_progress(Results& grid, const EngineTable& engines, GridOptions options, const GridRequest& asked) {
+  const bool speaks = !options.executor || options.executor->leads();
+  for (const CaseResult& result : speaks ? grid.cases : std::vector<CaseResult>()) {
+    const std::string cost = cost_of_ensemble(result.definition, cells_to_run(result));
+    if (!cost.empty()) say(cost);
+  }
+  Progress progress;
+  TimeLeft left(grid, asked.jobs.count, measured_times(asked.out.dir));
+  options.on_part = [&](std::size_t of_case, const MessageSubject& subject) {
+    if (subject.part == MessageSubject::Part::cell)
+      left.end_cell(of_case, subject.index, grid.cases[of_case].cells[subject.index].wall_seconds);
+    if (subject.part == MessageSubject::Part::stable_step) left.end_search(of_case, subject.index);
+  };
+  // Processes of an executor are counted elsewhere, so their rate is not known.
+  if (!options.executor) progress.estimate_with([&](double seconds) { return left.at(seconds); });
+  run_grid(grid, engines, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+}
+
 // Gates of other runs or steps than those named are not checked. If then no gate judged anything, all are checked, so
 // that the gate fails.
 void judge(GridRun& run) {
@@ -250,8 +297,8 @@ void judge(GridRun& run) {
   if (run.asked.is_gate && !is_any_judged(run.grid)) check(Asked::all);
 }
 
-bool write_reports(const Results& grid, OutputFolder& folder) {
-  const auto faults = faults_of_writing(grid, folder);
+bool write_reports(const Results& grid, OutputFolder& folder, const ReportAdditions& added) {
+  const auto faults = faults_of_writing(grid, folder, added);
   for (const std::string& fault : faults) say(fault);
   return faults.empty();
 }

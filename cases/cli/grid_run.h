@@ -1,7 +1,9 @@
 // Shared by run, gate and merge: plans a grid, judges it and writes its reports.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/cli/commands.h"
@@ -32,6 +34,8 @@ struct GridRequest {
   void declare(Options& options);
 };
 
+inline constexpr const char* kDivergenceFile = "divergence.json";  // only `diverge` writes it
+
 struct GridRun {
   const GridRequest& asked;
   const EngineTable& engines;
@@ -48,9 +52,14 @@ std::vector<RunName> runs_asked_for(const EngineOptions& options, const std::vec
 
 // Plans the grid and runs nothing. Throws InputError.
 GridRun plan_run(const GridRequest& asked, const EngineTable& engines);
+// The same of one case and these runs, without a search for stable steps. `asked` says the rest.
+GridRun plan_runs_of(const Case& definition, const std::vector<RunName>& runs, const GridRequest& asked,
+                     const EngineTable& engines);
 OutputFolder output_folder_of(const GridRequest& asked);
 GridOptions options_of(const GridRun& run, const OutputFolder& folder);
 std::vector<std::string> report_files();
+// Runs the grid and shows its progress.
+void run_with_progress(Results& grid, const EngineTable& engines, GridOptions options, const GridRequest& asked);
 
 void judge(GridRun& run);
 // The title of one part (--shard) of a grid. `deviations` is empty for a sweep.
@@ -58,8 +67,15 @@ PartTitle title_of_part(const Invocation& invocation, const Shard& shard, const 
                         const std::string& deviations, std::vector<std::pair<std::string, std::string>> plans,
                         double wall_seconds);
 
+// What a command adds to the reports.
+struct ReportAdditions {
+  std::vector<std::pair<std::string, std::string>> files = {};  // names and texts
+  std::function<std::string(const std::string&)> on_page = {};  // changes report.html
+  bool can_resume = true;                                       // the command has --resume
+};
+
 // Puts every output that could be written into place and reports the others. Returns whether all could be written.
-bool write_reports(const Results& grid, OutputFolder& folder);
+bool write_reports(const Results& grid, OutputFolder& folder, const ReportAdditions& added = {});
 
 // The exit code of the grid without its gates: bad input, or a cell that broke.
 int ending_of(const Results& grid, bool is_whole);

@@ -9,9 +9,6 @@
 #include "cases/cli/grid_run.h"
 #include "cases/cli/output.h"
 #include "cases/cli/progress/plan_sentence.h"
-#include "cases/cli/progress/progress.h"
-#include "cases/cli/progress/time_left.h"
-#include "cases/runner/ensemble.h"
 #include "cases/runner/shards/part.h"
 #include "core/base/error.h"
 
@@ -19,29 +16,6 @@ namespace rigor {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::size_t cells_to_run(const CaseResult& result) {
-  return static_cast<std::size_t>(std::count_if(result.cells.begin(), result.cells.end(),
-                                                [](const Cell& cell) { return cell.status != Status::unsupported; }));
-}
-
-void run_with_progress(Results& grid, const EngineTable& engines, GridOptions options, const GridRequest& asked) {
-  const bool speaks = !options.executor || options.executor->leads();
-  for (const CaseResult& result : speaks ? grid.cases : std::vector<CaseResult>()) {
-    const std::string cost = cost_of_ensemble(result.definition, cells_to_run(result));
-    if (!cost.empty()) say(cost);
-  }
-  Progress progress;
-  TimeLeft left(grid, asked.jobs.count, measured_times(asked.out.dir));
-  options.on_part = [&](std::size_t of_case, const MessageSubject& subject) {
-    if (subject.part == MessageSubject::Part::cell)
-      left.end_cell(of_case, subject.index, grid.cases[of_case].cells[subject.index].wall_seconds);
-    if (subject.part == MessageSubject::Part::stable_step) left.end_search(of_case, subject.index);
-  };
-  // Processes of an executor are counted elsewhere, so their rate is not known.
-  if (!options.executor) progress.estimate_with([&](double seconds) { return left.at(seconds); });
-  run_grid(grid, engines, options, [&](std::size_t done, std::size_t all) { progress.show(done, all); });
-}
 
 int run_whole(const GridRequest& asked, const EngineTable& engines) {
   GridRun run = plan_run(asked, engines);

@@ -173,6 +173,7 @@ Divergence diverge(const EngineTable& engines, const Case& definition, const Div
   const std::vector<double> spread = spread_of(runs, scene, found);
   found.largest = largest_share(in_a, in_b, scene, bounds, samples);
   found.parting = find_parting(in_a, in_b, scene, bounds, found.steps.seconds, spread);
+  found.gap = gap_series(in_a, in_b, scene, bounds, found.steps.seconds, found.parting);
   if (!found.parting) return found;
   found.truth = judged_by_truth(definition, found, in_a, in_b, options.limit);
   if (found.parting->sample == 0) return found;  // the engines load different states

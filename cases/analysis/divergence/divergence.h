@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cases/analysis/divergence/causes.h"
+#include "cases/analysis/divergence/gap_series.h"
 #include "cases/analysis/divergence/injections.h"
 #include "cases/analysis/divergence/parting.h"
 #include "cases/analysis/divergence/setting_swaps.h"
@@ -30,6 +31,7 @@ struct Divergence {
   double spread_a = 0, spread_b = 0;  // shares of a bound by which repeats of a run differ; 0: the same bits
   double compared = 0;                // s
   LargestShare largest;               // of the whole comparison
+  GapSeries gap;                      // the same over time
   std::optional<Parting> parting;     // the rest is of it
   Injections injections;
   std::vector<Cause> causes;

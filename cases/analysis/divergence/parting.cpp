@@ -67,17 +67,6 @@ Parting parting_at(const MotionView& a, const MotionView& b, const PartingBounds
   return parting;
 }
 
-LargestShare share_at(const MotionView& a, const MotionView& b, const Scene& scene, const PartingBounds& bounds,
-                      std::size_t sample) {
-  LargestShare worst{0, sample, 0};
-  for (std::size_t i = 0; i < a.bodies(); ++i) {
-    if (scene.bodies[i].fixed) continue;
-    const double share = share_of(gap_between(a.body(sample, i), b.body(sample, i)), bounds);
-    if (share > worst.share) worst.share = share, worst.body = static_cast<int>(i);
-  }
-  return worst;
-}
-
 }  // namespace
 
 BodyGap gap_between(const BodyState& a, const BodyState& b) {
@@ -107,6 +96,17 @@ BodyGap BodyGap::operator*(double factor) const {
 double share_of(const BodyGap& gap, const PartingBounds& bounds) {
   return std::max({gap.position.norm() / bounds.position, gap.turn.norm() / bounds.orientation,
                    gap.velocity.norm() / bounds.velocity, gap.angular_velocity.norm() / bounds.angular_velocity});
+}
+
+LargestShare share_at(const MotionView& a, const MotionView& b, const Scene& scene, const PartingBounds& bounds,
+                      std::size_t sample) {
+  LargestShare worst{0, sample, 0};
+  for (std::size_t i = 0; i < a.bodies(); ++i) {
+    if (scene.bodies[i].fixed) continue;
+    const double share = share_of(gap_between(a.body(sample, i), b.body(sample, i)), bounds);
+    if (share > worst.share) worst.share = share, worst.body = static_cast<int>(i);
+  }
+  return worst;
 }
 
 LargestShare largest_share(const MotionView& a, const MotionView& b, const Scene& scene, const PartingBounds& bounds,

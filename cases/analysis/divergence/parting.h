@@ -37,12 +37,14 @@ struct Parting {
   std::optional<double> in_a, in_b;  // the component in both runs; none for an orientation
 };
 
-// The largest share of a bound in the samples of both, up to `last`; with its sample.
+// The largest share of a bound in one sample, or in the samples of both up to `last`; with its sample.
 struct LargestShare {
   double share = 0;
   std::size_t sample = 0;
   int body = 0;
 };
+LargestShare share_at(const MotionView& a, const MotionView& b, const Scene& scene, const PartingBounds& bounds,
+                      std::size_t sample);
 LargestShare largest_share(const MotionView& a, const MotionView& b, const Scene& scene, const PartingBounds& bounds,
                            std::size_t last);
 

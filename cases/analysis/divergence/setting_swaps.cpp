@@ -298,14 +298,15 @@ SwapSearch search_swaps(const RunPair& pair, const Scene& scene, double duration
   for (const SettingSwap& swap : swaps) singles.push_back({swap});
   search.tried = searcher.tried(singles, whole);
   if (search.tried.empty()) return search;
-  std::vector<TriedSwap> candidates = {search.tried.front()};
+  std::vector<std::size_t> candidates = {0};
   if (search.tried.front().closes < kEnough) {
     const std::vector<TriedSwap> pairs = searcher.tried(pairs_of(search.tried), whole);
     if (!pairs.empty() && pairs.front().closes > search.tried.front().closes + kBetter)
-      candidates.insert(candidates.begin(), pairs.front());
+      candidates.insert(candidates.begin(), search.tried.size());  // where the first pair will stand
     search.tried.insert(search.tried.end(), pairs.begin(), pairs.end());
   }
-  for (TriedSwap& candidate : candidates) {
+  for (const std::size_t number : candidates) {
+    TriedSwap& candidate = search.tried[number];
     if (candidate.closes < kNamed) continue;
     searcher.check(candidate);
     if (candidate.is_checked && candidate.closes_at_half_step >= kNamed) {

@@ -29,13 +29,13 @@ struct TriedSwap {
   std::vector<SettingSwap> swaps;  // one, or a pair
   DivergingRun a, b;               // the runs that it makes
   double closes = 0;               // share of the gap; 1: all of it; negative if it widens
-  double closes_at_half_step = 0;  // the same with both steps halved; of the best alone
+  double closes_at_half_step = 0;  // the same with both steps halved; only where it is checked
   bool is_checked = false;
   std::string why;  // why it could not run; else empty
 };
 
 struct SwapSearch {
-  std::vector<TriedSwap> tried;   // by what they close
+  std::vector<TriedSwap> tried;   // single ones by what they close, then pairs by what they close
   std::optional<TriedSwap> best;  // it closes at least half, also at half the step
   bool has_differing_setting = false;
 };

@@ -1,5 +1,7 @@
 #include "cases/report/html/data_element.h"
 
+#include <stdexcept>
+
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
@@ -18,6 +20,12 @@ std::string data_element(const std::string& id, const Json& json) {
   safe.reserve(text.size());
   for (const char c : text) c == '<' ? safe += "\\u003c" : safe += c;
   return opening(id) + safe + kClosing + "\n";
+}
+
+std::string with_data_element(const std::string& page, const std::string& id, const Json& json) {
+  const std::size_t at = page.find(opening(kResultsElement));
+  if (at == std::string::npos) throw std::logic_error("the page holds no results");
+  return page.substr(0, at) + data_element(id, json) + page.substr(at);
 }
 
 std::string data_of_element(const std::string& page, const std::string& id) {

@@ -27,7 +27,8 @@ Json json_of_parting(const Divergence& found) {
                {"unit", parting.unit},
                {"gap", parting.gap},
                {"bound", parting.bound},
-               {"part", parting.part}};
+               {"part", parting.part},
+               {"common_steps", parting.sample}};
   if (parting.in_a) json["a"] = *parting.in_a, json["b"] = *parting.in_b;
   return json;
 }
@@ -44,6 +45,7 @@ Json json_of_injections(const Divergence& found) {
           {"growth", found.injections.growth},
           {"growth_factor", found.injections.growth_factor},
           {"all_steps", found.injections.has_all_steps},
+          {"why", found.injections.why},
           {"steps", steps}};
 }
 
@@ -60,6 +62,7 @@ Json json_of_cause(const Cause& cause, const Divergence& found) {
           {"at_half_step", cause.is_measured_at_half_step ? Json(cause.at_half_step) : Json(nullptr)},
           {"falls_with_dt", cause.falls_with_dt()},
           {"rounding", cause.is_rounding},
+          {"why", cause.why},
           {"evidence", evidence}};
 }
 
@@ -87,7 +90,7 @@ Json json_of_truth(const DivergenceTruth& truth) {
 
 }  // namespace
 
-Json divergence_json(const Divergence& found, const std::vector<std::string>& calls) {
+Json divergence_json(const Divergence& found, const std::string& command, const std::vector<std::string>& calls) {
   const PartingBounds& bounds = found.bounds;
   Json json = {{"case", found.case_id},
                {"a", json_of_run(found.a, found.in_a, found.spread_a)},
@@ -100,6 +103,7 @@ Json divergence_json(const Divergence& found, const std::vector<std::string>& ca
                {"compared", found.compared},
                {"ended", found.ended},
                {"largest_share", found.largest.share},
+               {"gap", {{"time", found.gap.time}, {"share", found.gap.share}}},
                {"parting", found.parting ? json_of_parting(found) : Json(nullptr)}};
   if (!found.parting) return json;
   json["truth"] = json_of_truth(found.truth);
@@ -109,7 +113,8 @@ Json divergence_json(const Divergence& found, const std::vector<std::string>& ca
   for (const TriedSwap& swap : found.swaps.tried) swaps.push_back(json_of_swap(swap));
   json["causes"] = causes, json["swaps"] = swaps;
   json["setting"] = found.swaps.best ? json_of_swap(*found.swaps.best) : Json(nullptr);
-  json["calls"] = calls;
+  json["differing_settings"] = found.swaps.has_differing_setting;
+  json["command"] = command, json["calls"] = calls;
   return json;
 }
 

@@ -1,4 +1,4 @@
-// What `rigor diverge --json` prints.
+// What `rigor diverge --json` prints and divergence.json holds.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@
 
 namespace rigor {
 
-Json divergence_json(const Divergence& found, const std::vector<std::string>& calls);
+// `command`: runs the winner of the settings; `calls`: of the engine itself. Both are empty if no setting wins.
+Json divergence_json(const Divergence& found, const std::string& command, const std::vector<std::string>& calls);
 
 }  // namespace rigor

@@ -7,7 +7,6 @@
 #include "tests/cases/cli/program.h"
 
 using namespace rigor;
-using namespace rigor::test;
 
 BOOST_AUTO_TEST_SUITE(cases_report_csv_reaction_csv)
 

@@ -14,40 +14,18 @@
 #include "cases/report/json/json_report.h"
 #include "cases/report/json/packing.h"
 #include "cases/report/reports.h"
+#include "tests/cases/report/html/page_in_browser.h"
 #include "tests/cases/report/html/unpacking.h"
 #include "tests/cases/report/sample_results.h"
 #include "tests/folder.h"
 
 using namespace rigor;
+using namespace rigor::test;
 
 BOOST_AUTO_TEST_SUITE(cases_report_html_html_report)
 namespace fs = std::filesystem;
 
 namespace {
-
-const std::string kHere = RIGOR_SOURCE_DIR "/tests/cases/report/html/";
-const std::string kModules = RIGOR_BUILD_DIR "/page/node_modules";
-
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-// Runs a command whose words hold no quotes, and shows what it said if it fails.
-bool succeeds(const std::string& command, const Folder& folder) {
-  const std::string said = (folder.path / "said").string();
-  const int answer = std::system((command + " >" + said + " 2>&1").c_str());
-  const bool good = WIFEXITED(answer) && WEXITSTATUS(answer) == 0;
-  if (!good) BOOST_TEST_MESSAGE(command << "\n" << content(said));
-  return good;
-}
-
-bool opens_well(const std::string& script, const Folder& folder, const std::string& page, const std::string& results,
-                const std::string& name) {
-  const std::string shots = RIGOR_BUILD_DIR "/screenshots/" + name;
-  return succeeds(
-      "RIGOR_PAGE_MODULES=" + kModules + " node " + kHere + script + " " + page + " " + results + " " + shots, folder);
-}
 
 bool is_valid(const std::string& results, const Folder& folder) {
   return succeeds("node " + kHere + "schema_test.mjs " + kModules + " " + RIGOR_SOURCE_DIR +

@@ -9,6 +9,7 @@ import { frictionFan } from "./friction_chart.js";
 import { loadCase } from "./playback_data.js";
 import { cheapest, curvesOfCase, isCoreMethod, isExternal, isTimed } from "./frontier.js";
 import { FrontierChart, lengthOrAngle } from "./frontier_chart.js";
+import { divergence, partingAnswer, PartingView } from "./parting_view.js";
 import { Player } from "./player.js";
 import { commands, repairs } from "./repair.js";
 import { schemeSplit } from "./scheme_tables.js";
@@ -29,6 +30,7 @@ export class CaseView {
     (this.results = results), (this.one = one), (this.root = root);
     this.dt = dtOf(one, state.dt);
     this.player = new Player(one.duration);
+    this.parting = divergence?.case === one.id ? new PartingView(divergence, this.player) : null;
     this.chips = el("div.chips", { role: "group", "aria-label": "Engines shown" });
     this.stageBox = el("section.stage", { "aria-label": "Playback" });
     this.plotsBox = el("section.plots", { "aria-label": "Quantities over time" });
@@ -40,7 +42,7 @@ export class CaseView {
     });
     (this.across = el("div.across")), (this.fan = el("div.fan"));
     this.steps = el("div.segments", { role: "group", "aria-label": "Step size" });
-    replace(root, caseHeading(this), this.bar(), el("div.motion", {}, this.stageBox, el("div.beside-motion", {}, this.chart.root, this.plotsBox)), this.across);
+    replace(root, caseHeading(this), this.bar(), el("div.motion", {}, this.stageBox, el("div.beside-motion", {}, this.chart.root, this.plotsBox)), this.parting?.root, this.across);
     this.drawAnswer();
     this.stop = onChange((changed) => this.follow(changed));
     this.load();
@@ -49,7 +51,7 @@ export class CaseView {
   close() {
     this.closed = true;
     this.barSize.disconnect();
-    this.stop(), this.player.close(), this.stage?.close(), this.plots?.close();
+    this.stop(), this.parting?.close(), this.player.close(), this.stage?.close(), this.plots?.close();
   }
 
   get engines() {
@@ -92,11 +94,11 @@ export class CaseView {
     const few = fails.slice(0, 4).join(", ") + (fails.length > 4 ? ` and ${fails.length - 4} more` : "");
     replace(
       this.answer,
-      el("h1", {}, title),
+      this.parting ? partingAnswer(divergence) : el("h1", {}, title),
       el(
         "p.beside",
         {},
-        own && best ? `Rigor's core: ${own.curve.engine} at ${own.point.dt} s. ` : "",
+        own && best && !this.parting ? `Rigor's core: ${own.curve.engine} at ${own.point.dt} s. ` : "",
         bad.length ? `Failed at ${this.dt.text} s: ${few}.` : `Nothing fails at ${this.dt.text} s.`,
       ),
     );

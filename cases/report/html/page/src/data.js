@@ -110,7 +110,7 @@ function inReadingOrder({ engines, cells, cases }) {
 }
 
 // Engines that are not ours have the warm and the strong colours, lighter ones once all are taken; the stock track of one
-// is its dashed twin.
+// is its dashed twin. Settings of one engine have one colour, except where there are enough for all.
 function giveColours(engines) {
   const strong = [
     [28, 0.17],
@@ -120,14 +120,16 @@ function giveColours(engines) {
     [190, 0.12],
   ];
   const calm = [145, 290, 215, 60, 350, 110, 265, 170, 20, 310, 235, 130];
-  const foreign = new Map();
+  const foreign = new Map(),
+    withoutTrack = ({ name }) => name.split("@")[0],
+    isEnough = new Set(engines.filter((e) => !e.core).map(withoutTrack)).size <= strong.length;
   let own = 0;
   for (const engine of engines) {
     let hue, chroma;
     if (engine.core) {
       (hue = calm[own % calm.length]), (chroma = 0.1 + 0.03 * (own % 2)), (engine.step = own++ % 3);
     } else {
-      const family = engine.engine ?? engine.name;
+      const family = isEnough ? withoutTrack(engine) : (engine.engine ?? engine.name);
       if (!foreign.has(family)) foreign.set(family, foreign.size);
       const place = foreign.get(family);
       ([hue, chroma] = strong[place % strong.length]), (engine.step = Math.floor(place / strong.length) % 3);

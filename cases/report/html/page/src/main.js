@@ -4,8 +4,9 @@ import { el, replace } from "./dom.js";
 import { CaseView } from "./case_view.js";
 import { Overview } from "./overview.js";
 import { openHelp } from "./help.js";
+import { divergence, firstView } from "./parting_view.js";
 import { applyTheme, themeButton } from "./theme.js";
-import { addressOfAll, followAddress, onChange, openAll, site, state } from "./state.js";
+import { address, addressOfAll, followAddress, onChange, openAll, site, state } from "./state.js";
 
 const page = document.getElementById("page");
 
@@ -67,6 +68,7 @@ async function start() {
   }
   const results = await loadResults();
   document.head.append(engineColours(results.engines));
+  if (divergence && !location.hash) history.replaceState(null, "", address(firstView()));
   followAddress(site ? results.cases[0].id : "");
   let view = null;
   const show = () => {

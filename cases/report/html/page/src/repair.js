@@ -4,7 +4,7 @@ import { el } from "./dom.js";
 import { cheapest, curvesOfCase, engineOf, isExternal, largestStep } from "./frontier.js";
 import { lengthOrAngle } from "./frontier_chart.js";
 
-const copied = (text) =>
+export const copied = (text) =>
   el("button.quiet", { type: "button", onclick: () => navigator.clipboard?.writeText(text) }, "copy");
 
 // The change of step or engine that this report has seen to work.
