@@ -1,4 +1,4 @@
-// Where the two runs of `rigor diverge` part: the answer, the plot, the causes, and the settings that were tried.
+// Shows where the two runs of `rigor diverge` part: the answer, the plot, the causes, and the settings tried.
 import { el, tableHead } from "./dom.js";
 import { digits, percent } from "./format.js";
 import { PartingChart } from "./parting_chart.js";
@@ -8,7 +8,7 @@ import { copied } from "./repair.js";
 // Of a report that `rigor diverge` wrote; null in any other.
 export const divergence = JSON.parse(document.getElementById("rigor-divergence")?.textContent ?? "null");
 
-// Where the page opens: the case at the first run's step, when the runs part.
+// The page opens at the instant of the parting, with the first run's step.
 export const firstView = () => ({ case: divergence.case, dt: divergence.a.dt, time: divergence.parting?.time ?? 0 });
 
 export const partingAnswer = (found) => [el("h1", {}, title(found)), answerLines(found).map((line) => el("p.beside", {}, line))];
@@ -30,7 +30,7 @@ function causes(found) {
     );
   return [
     el("h3", {}, "Why"),
-    el("p.fine", {}, "The largest one-step differences, in bounds after free motion until the runs part, and the part of the scene without which each vanishes."),
+    el("p.fine", {}, "The largest one-step differences. “Adds” counts in bounds, after free motion until the runs part. The difference vanishes without the named part of the scene."),
     el(
       "div.scroll",
       { tabindex: 0 },

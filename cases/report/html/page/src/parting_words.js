@@ -1,4 +1,4 @@
-// What `rigor diverge` found, in sentences. Its data is that of divergence.json.
+// Sentences for the findings of `rigor diverge`, from the data of divergence.json.
 import { digits, isNumber, percent, quantity } from "./format.js";
 
 const isOneEngine = ({ a, b }) => a.run === b.run;
@@ -11,7 +11,7 @@ export const swapText = (found, swap) =>
 const orInfinity = (share) => share ?? Infinity;
 const largestOf = ({ gap }) => gap.share.reduce((most, share, i) => (orInfinity(share) > orInfinity(gap.share[most]) ? i : most), 0);
 
-// The runs have the bound behind them, and yet do not count as parted: their own repeats differ.
+// The gap exceeds the bound, but repeats of one run differ too much for it to count.
 const isWithinSpread = (found) => !found.parting && orInfinity(found.largest_share) > 1;
 
 export function title(found) {
@@ -37,7 +37,7 @@ function whereParted({ parting }) {
   return `“${body}” is then ${quantity(parting.gap, unit, 3)} apart, most in ${component}${values}. The bound is ${quantity(parting.bound, unit, 3)}.`;
 }
 
-// Which run is nearer the truth. What the truth cannot tell apart is not nearer.
+// Names the run that is nearer the truth, if the truth is exact enough to tell.
 function judged(found) {
   const { truth, parting } = found;
   if (truth.none !== undefined) return `No truth says which run is right: ${truth.none}.`;
