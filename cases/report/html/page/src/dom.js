@@ -57,3 +57,11 @@ export function typeset(text) {
     .split(/(\^(?:-?\d+|\([^)]*\)))/)
     .map((part) => (part.startsWith("^") ? el("sup", {}, part.slice(1).replace(/^\(|\)$/g, "").replace("-", "−")) : part));
 }
+
+// Comes once the browser has painted what there is; at the latest after 0.2 s, for a page in the background is not
+// painted.
+export const afterFirstPaint = () =>
+  new Promise((resolve) => {
+    setTimeout(resolve, 200);
+    requestAnimationFrame(() => setTimeout(resolve));
+  });

@@ -97,6 +97,7 @@ async function start() {
   });
   window.addEventListener("afterprint", () => applyTheme());
   show();
+  await view?.whole;
   document.documentElement.dataset.ready = "true";
 }
 

@@ -1,6 +1,6 @@
 // The first screen: which engine and step to take, the picture that says why, the problems found, and the matrix.
 import { judgement, metricOf } from "./data.js";
-import { el, replace, tableHead } from "./dom.js";
+import { afterFirstPaint, el, replace, tableHead } from "./dom.js";
 import { EngineCards } from "./engine_cards.js";
 import { digits, quantity, words } from "./format.js";
 import { cheapest, curvesOf, engineOf, families, isCoreMethod, isExternal, isReference, isTimed } from "./frontier.js";
@@ -64,13 +64,16 @@ export class Overview {
       el("section.part", { id: "matrix" }, el("h2", {}, "Every case"), this.controls(), this.matrix.root, this.legend()),
       this.details(),
     );
-    this.draw();
+    this.drawFirst();
+    // A long matrix takes as long as all that is above it.
+    this.whole = afterFirstPaint().then(() => this.isClosed || this.drawMatrix());
     this.stop = onChange((changed) => {
       if (["tolerance", "family", "dt"].some((key) => changed.has(key))) this.drawFirst();
       if (["dt", "show", "tolerance", "family", "sort", "filter", "verdict"].some((key) => changed.has(key))) this.drawMatrix();
     });
   }
   close() {
+    this.isClosed = true;
     this.stop();
   }
 
@@ -88,9 +91,6 @@ export class Overview {
     );
   }
 
-  draw() {
-    this.drawFirst(), this.drawMatrix();
-  }
   drawMatrix() {
     this.matrix.draw(this.dt);
   }
