@@ -144,6 +144,11 @@ std::vector<double> spread_of(const std::vector<StateSeries>& runs, const Scene&
 
 }  // namespace
 
+std::optional<Side> DivergenceTruth::nearer() const {
+  if (!why.empty() || std::abs(a - b) <= 2 * error) return {};
+  return a < b ? Side::a : Side::b;
+}
+
 Divergence diverge(const EngineTable& engines, const Case& definition, const DivergingRun& a, const DivergingRun& b,
                    const PartingBounds& bounds, const DivergenceOptions& options) {
   constexpr std::size_t kCauses = 3;

@@ -18,6 +18,9 @@ struct DivergenceTruth {
   double a = 0, b = 0, error = 0;                       // in the unit of the parting; of the truth itself [m or rad]
   bool is_made_like_a = false, is_made_like_b = false;  // by the code that makes the truth
   std::string why;                                      // why there is no truth here; else empty
+
+  // The run that is nearer. None if the error of the truth may reverse the order.
+  std::optional<RunPair::Side> nearer() const;
 };
 
 struct Divergence {

@@ -70,10 +70,7 @@ class Divergence(Printed):
         truth = self.json.get("truth") or {}
         if "a" not in truth or truth["a_is_made_by_it"] or truth["b_is_made_by_it"]:
             return ""
-        # What the truth cannot tell apart is not nearer.
-        if abs(truth["a"] - truth["b"]) <= 2 * truth["error"]:
-            return ""
-        return self.json["a" if truth["a"] < truth["b"] else "b"]["run"]
+        return self.json[truth["nearer"]]["run"] if truth["nearer"] else ""
 
     def __bool__(self) -> bool:
         return self.json["parting"] is not None

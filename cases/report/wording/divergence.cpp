@@ -141,9 +141,9 @@ std::string truth_line(const Divergence& found) {
   if (!truth.why.empty()) return titled_line("truth", "no truth here: " + truth.why);
   const std::string unit = found.parting->unit;
   const auto mark = [](bool is_made_like) { return is_made_like ? " [the truth's own code]" : ""; };
-  const std::string nearer = std::max(truth.a, truth.b) <= truth.error ? "neither is wrong by more than its error"
-                             : truth.a < truth.b                       ? short_name(found, found.a) + " is nearer"
-                                                                       : short_name(found, found.b) + " is nearer";
+  const std::optional<RunPair::Side> side = truth.nearer();
+  const std::string nearer = !side ? "too coarse to say which is nearer"
+                                   : short_name(found, *side == RunPair::Side::a ? found.a : found.b) + " is nearer";
   return titled_line(
       "truth", fmt::format("{} is {} away{}, {} is {} away{}; the truth knows {}: {}", short_name(found, found.a),
                            in_unit(truth.a, unit), mark(truth.is_made_like_a), short_name(found, found.b),

@@ -81,8 +81,10 @@ Json json_of_swap(const TriedSwap& swap) {
 
 Json json_of_truth(const DivergenceTruth& truth) {
   if (!truth.why.empty()) return {{"none", truth.why}};
+  const std::optional<RunPair::Side> nearer = truth.nearer();
   return {{"a", truth.a},
           {"b", truth.b},
+          {"nearer", nearer ? Json(*nearer == RunPair::Side::a ? "a" : "b") : Json(nullptr)},
           {"error", truth.error},
           {"a_is_made_by_it", truth.is_made_like_a},
           {"b_is_made_by_it", truth.is_made_like_b}};

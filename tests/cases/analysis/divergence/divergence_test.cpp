@@ -235,4 +235,18 @@ BOOST_AUTO_TEST_CASE(compound_joints_are_refused) {
       });
 }
 
+// Each distance is known to the truth's error only, so two that are nearer together than twice that have no order.
+BOOST_AUTO_TEST_CASE(a_run_is_nearer_only_where_the_truth_can_tell) {
+  const auto nearer = [](double a, double b, double error, const std::string& why = "") {
+    DivergenceTruth truth;
+    truth.a = a, truth.b = b, truth.error = error, truth.why = why;
+    return truth.nearer();
+  };
+  BOOST_TEST((nearer(1, 2, 0.1) == RunPair::Side::a));
+  BOOST_TEST((nearer(2, 1, 0.1) == RunPair::Side::b));
+  BOOST_TEST(!nearer(1, 2, 0.5));
+  BOOST_TEST(!nearer(1, 1, 0));
+  BOOST_TEST(!nearer(1, 2, 0.1, "the case has no truth"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -45,8 +45,7 @@ function judged(found) {
   const both = `${away(found.a, truth.a)}, ${away(found.b, truth.b)}.`;
   const own = ["a", "b"].filter((key) => truth[`${key}_is_made_by_it`]).map((key) => nameOf(found, found[key]));
   const caveat = own.length ? ` The truth is made by the code of ${own.join(" and of ")}.` : "";
-  const isTold = Math.abs(truth.a - truth.b) > 2 * truth.error;
-  const nearer = isTold ? ` ${nameOf(found, truth.a < truth.b ? found.a : found.b)} is nearer.` : " The truth is not exact enough to say which is nearer.";
+  const nearer = truth.nearer ? ` ${nameOf(found, found[truth.nearer])} is nearer.` : " The truth is not exact enough to say which is nearer.";
   return both + nearer + caveat;
 }
 
@@ -73,7 +72,7 @@ export function injectionLines(found) {
   if (parting.common_steps === 0) return ["The engines start in different states, so no step was looked at."];
   if (!injections.steps.length) return [`What each step adds was not measured: ${injections.why}.`];
   const share = injections.injected,
-    isTakenBack = share < 0 || share > 1 ? " Contacts and joints take part of these differences back." : "";
+    isTakenBack = share < 0 || share > 1.05 ? " The motion takes part of these differences back." : "";
   const some = injections.all_steps ? "" : ` ${injections.steps.length} of ${parting.common_steps} steps were measured.`;
   return [
     `Both engines make one step from the same state. Free motion of all these one-step differences makes ${percent(share, 3)} of the gap.${isTakenBack}${some}`,
