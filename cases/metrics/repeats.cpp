@@ -23,7 +23,7 @@ std::optional<Instant> first_other(const Sample& one, const Sample& other) {
 }
 
 MetricResult measure_repeats(const JudgedRun& run) {
-  if (!run.again) return {{}, "the run was not repeated: it is long, or no gate asks for it"};
+  if (!run.again) return {{}, "not measured: the run is long, and no gate asks for it"};
   const std::vector<Sample>&samples = run.trajectory.samples, &again = run.again->samples;
   if (samples.empty()) return {{}, "the run has no finite step"};
   Measurement out;

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(another_length_is_another_run) {
 BOOST_AUTO_TEST_CASE(a_run_that_was_not_repeated_has_no_value) {
   const MetricResult result = result_of(trajectory(), nullptr);
   BOOST_TEST(!result.measurement.has_value());
-  BOOST_TEST(result.not_applicable == "the run was not repeated: it is long, or no gate asks for it");
+  BOOST_TEST(result.not_applicable == "not measured: the run is long, and no gate asks for it");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
