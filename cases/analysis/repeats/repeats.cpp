@@ -202,8 +202,8 @@ RepeatOutcome in_new_process(const std::vector<std::uint64_t>& due, const Hashes
   return outcome;
 }
 
-// A difference is one of roundings if it begins as some of them, and ends no larger than some times what one rounding
-// of the start makes, or of the coordinates themselves.
+// A difference counts as rounding if it begins as a few roundings and stays small. The limit at the end is a multiple
+// of what one rounding of the start makes, or of one rounding of the coordinates.
 void compare_with_rounding(RepeatReport& report, double size) {
   for (RepeatOutcome& outcome : report.outcomes) {
     if (!outcome.difference || outcome.difference->column < 0) continue;

@@ -28,7 +28,7 @@ std::vector<Json> parts_by_case(const Json& results);
 // A whole page at this address of the site, without a script.
 std::string site_page(const std::string& address, const std::string& title, const std::string& body);
 
-// What every page's head begins with, up to the policy's own sources.
+// The start of every page's head. `policy`: the page's own sources.
 std::string site_head(const std::string& title, const std::string& policy);
 
 std::string link_to(const std::string& root, const std::string& address, const std::string& text);

@@ -296,7 +296,8 @@ void Joints::aim_driven_coordinates(BodyColumns start, double h) {
 }
 
 // A chord method. It assumes that the impulse changes the end by h S, with J of the start at both. It starts from the
-// rows and their rates at the start, which leave a gap of h³.
+// rows and their rates at the start, which leave a gap of h³. A gap that grows leads to another pose or to none, so the
+// search is then given up.
 bool Joints::close(BodyColumns start, double h, const std::function<BodyColumns(const double* impulse)>& attempt,
                    double within) {
   factorise(start, Rows::chosen_anew);

@@ -11,22 +11,8 @@ namespace cases_cli_diverge {
 
 using Json = nlohmann::json;
 
-constexpr const char* kTop = R"(title = "a top"
-[scene]
-[[scene.body]]
-name = "top"
-mass = 2
-inertia = [1, 2, 3]
-angular_velocity = [1.1, 0.7, -0.9]
-[run]
-duration = 3
-dt = ["1/100"]
-[truth]
-kind = "asymmetric-top"
-)";
-
 struct Fixture : Program {
-  Fixture() { folder.write("top.toml", kTop), folder.write("cube.toml", kSprungCube); }
+  Fixture() { folder.write("top.toml", tumbling_top("top")), folder.write("cube.toml", kSprungCube); }
   Answer diverge(std::vector<std::string> words) const {
     words.insert(words.begin(), "diverge");
     return run(words);

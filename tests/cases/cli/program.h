@@ -29,6 +29,21 @@ dt = ["1/10"]
 kind = "projectile"
 )";
 
+// A free body that spins about all its axes, with a closed form. `more`: further lines of the body.
+inline std::string tumbling_top(const std::string& name, const std::string& more = "") {
+  return "title = \"a top\"\n[scene]\n[[scene.body]]\nname = \"" + name + R"("
+mass = 2
+inertia = [1, 2, 3]
+angular_velocity = [1.1, 0.7, -0.9]
+)" + more +
+         R"([run]
+duration = 3
+dt = ["1/100"]
+[truth]
+kind = "asymmetric-top"
+)";
+}
+
 // Up and down on a spring, w = 10/s; with a closed form.
 inline constexpr const char* kSprungCube = R"(title = "up and down"
 [scene]

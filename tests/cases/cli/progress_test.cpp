@@ -73,7 +73,7 @@ Results planned_for_two(int cells_each) {
   return grid;
 }
 
-// Ten slow cells and thirty fast ones are left. By the count, each of them would take as long as those that have ended.
+// Ten slow cells and thirty fast ones are left. The count alone would let each take as long as those that have ended.
 BOOST_AUTO_TEST_CASE(the_time_left_follows_from_each_engines_own_cells) {
   const Results grid = planned_for_two(40);
   const double each = predicted_seconds(grid.cases[0].definition, grid.cases[0].cells[0]);

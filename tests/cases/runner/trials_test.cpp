@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(noise_that_is_not_stated_is_estimated_and_said_to_be) {
     text.replace(text.find(key), std::string(key).size(), "");
   const Case definition = read_case(folder.write("slide.toml", text), "slide", test::words());
   BOOST_TEST(definition.recording->is_noise_estimated);
-  // From 198 windows that overlap, so from some 25 independent ones with 18 degrees of freedom each: to 3 % or so.
+  // 198 windows overlap and are worth some 25 independent ones of 18 degrees of freedom, which gives it to 3 % or so.
   BOOST_TEST(definition.recording->position_noise == test::kPositionNoise, boost::test_tools::tolerance(0.12));
   BOOST_TEST(definition.recording->orientation_noise == 0.001, boost::test_tools::tolerance(0.12));
   BOOST_TEST(truth_of(definition, 0.2)->caveat().find("estimated") != std::string::npos);

@@ -6,6 +6,7 @@
 #include "cases/report/html/data_element.h"
 #include "cases/report/json/json_report.h"
 #include "cases/report/reports.h"
+#include "tests/cases/cli/program.h"
 #include "tests/cases/report/html/page_in_browser.h"
 #include "tests/cases/report/sample_results.h"
 
@@ -19,20 +20,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kHarm = "</script><img src=x onerror=window.harm=1>";
-
-// A body that spins about all its axes, with a name that would do harm as markup.
-const std::string kTop = std::string("title = \"a top\"\n[scene]\n[[scene.body]]\nname = \"") + kHarm + R"("
-mass = 2
-inertia = [1, 2, 3]
-angular_velocity = [1.1, 0.7, -0.9]
-shape = { type = "box", size = [0.5, 0.4, 0.3] }
-collides = false
-[run]
-duration = 3
-dt = ["1/100"]
-[truth]
-kind = "asymmetric-top"
-)";
 
 // Runs that leave the bound by less than three times what their repeats differ by; with names that would do harm.
 Json within_the_spread(const std::string& case_id) {
@@ -73,7 +60,8 @@ Json unmeasured(const std::string& case_id) {
 
 BOOST_AUTO_TEST_CASE(the_page_says_where_two_runs_part, *boost::unit_test::timeout(300)) {
   Folder folder;
-  folder.write("top.toml", kTop);
+  folder.write("top.toml",
+               tumbling_top(kHarm, "shape = { type = \"box\", size = [0.5, 0.4, 0.3] }\ncollides = false\n"));
   const std::string diverge =
       "cd " + folder.path.string() + " && " + RIGOR_PROGRAM + " diverge top.toml --jobs 2 --out ";
   BOOST_TEST_REQUIRE(succeeds(diverge + "parted --engine ode --engine ode,gyroscopic=off", folder));

@@ -1,5 +1,7 @@
-// The page of `rigor diverge --out`: what it says, what it draws, and that names in it are text.
+// Tests the words and plots of the page of `rigor diverge --out`, and that names in it are text.
+//
 // node divergence_page_test.mjs REPORT.html RESULTS.json SHOTS-FOLDER
+//
 // Beside the report's folder are those of other pages: steps, never, spread, same, unmeasured.
 import { readFileSync } from "node:fs";
 import { dirname, join } from "node:path";

@@ -2,6 +2,7 @@
 // the rounding of their last digit and ADAMS's own error. The figures, and what they mean, stand in adams_figures.csv.
 //
 // ADAMS's own error is not published. Its tables show it:
+//
 //   - Three tables are one motion, of a rod released level. revolute-1 and cylindrical-2 agree with the closed form to
 //     every digit of the positions. spherical-1 is 8.4e-4 m away from them.
 //   - No joint does work, but the energy of the states in its tables drifts: by 7.9e-3 J in spherical-1, universal-1

@@ -296,7 +296,7 @@ export const stepFor = (results, one, engine, tolerance) =>
 export const stableText = (stable) =>
   `${stable.is_cap ? "≥ " : stable.is_floor ? "< " : ""}${quantity(stable.dt, "s")}`;
 
-// Of two values in the middle the larger: the worse of two errors.
+// An even count takes the larger of the two middle values, which is the worse error.
 export function median(values) {
   if (!values.length) return null;
   const sorted = [...values].sort((a, b) => a - b);
