@@ -21,11 +21,13 @@ struct MjcfSource {
 struct CompiledMjcf {
   std::string parser;  // "MuJoCo 3.14.0"
   // The arrays of mjModel by their names, and the option's as "opt_gravity". Of the state to start from: xpos, xquat,
-  // velocity (of each body's origin in W: angular, then linear), qpos, ctrl, act.
+  // xanchor and xaxis (of each joint), velocity (of each body's origin: angular, then linear), all in W; qpos, ctrl,
+  // act.
   std::map<std::string, std::vector<double>> numbers;
   std::map<std::string, std::vector<std::string>> names;  // "body", "joint", "geom", …; "" without a name
   std::set<std::string> off;                              // what <flag> switches off: "contact", "limit", …
   std::vector<std::string> warnings;
+  bool adds_margins = false;  // a pair's margin is the sum of both, as in MuJoCo 3.14; else the larger one, as in 2.2.2
 
   double at(const std::string& name, std::size_t index) const;  // 0 for what this MuJoCo does not have
   int whole(const std::string& name, std::size_t index) const { return static_cast<int>(at(name, index)); }

@@ -77,9 +77,8 @@ void lose_powers(MjcfImport& import, int joint) {
 
 // A hinge or a slider with all that acts on its coordinate.
 LinkJoint axis_joint(MjcfImport& import, int joint) {
-  const BodyPose body = import.pose_of(import.whole("jnt_bodyid", joint));
-  const Vec3 anchor = body.position + body.orientation * import.vector("jnt_pos", joint),
-             axis = (body.orientation * import.vector("jnt_axis", joint)).normalized();
+  // The body's own frame would not do: of joints in series, the later ones have turned it.
+  const Vec3 anchor = import.vector("xanchor", joint), axis = import.vector("xaxis", joint).normalized();
   LinkJoint row;
   row.where = import.at("joint", joint);
   row.joint.name = import.m.name_of("joint", static_cast<std::size_t>(joint));
@@ -141,9 +140,8 @@ void read_joints(MjcfImport& import, int body) {
   if (count > 1)
     return import.lose("body", body, "a ball in series with other joints",
                        "no joint of a scene equals them: it is free");
-  const BodyPose pose = import.pose_of(body);
   row.where = import.at("joint", first), row.joint.name = import.m.name_of("joint", static_cast<std::size_t>(first));
-  row.joint.type = BallJoint{pose.position + pose.orientation * import.vector("jnt_pos", first)};
+  row.joint.type = BallJoint{import.vector("xanchor", first)};
   import.model.joints.push_back(std::move(row));
 }
 
@@ -185,7 +183,7 @@ LinkModel links_of_mjcf(const MjcfSource& source, CompiledMjcf compiled) {
   import.model.combine = larger_of;
   read_medium(import);
   const int bodies = import.count("body_parentid");
-  import.model.has_state = true;
+  import.model.has_state = !source.keyframe.empty();
   import.row_of_joint.assign(compiled.size("jnt_type"), -1);
   for (int body = 1; body < bodies; ++body) read_body(import, body);
   for (int body = 1; body < bodies; ++body) read_joints(import, body);

@@ -20,8 +20,9 @@ constexpr double kTimeLimit = 60;                              // s
 constexpr std::size_t kLongestModel = std::size_t{256} << 20;  // bytes
 
 // It reads one request and writes one answer. Files reach MuJoCo by name alone, so that it opens none of the disk.
-// Arrays of bytes cannot be read from the compiled model: what is limited or active is asked of the specification. The
-// text stands between single quotes of a shell, and holds none.
+// Arrays of bytes cannot be read from the compiled model: what is limited or active is asked of the specification. So
+// are names, for mj_id2name gives what has none the name "emsc". The text stands between single quotes of a shell, and
+// holds none.
 constexpr const char* kScript = R"js(
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
@@ -65,28 +66,38 @@ function numbersOf(model, spec, object) {
   numbers.eq_active = flags(spec, object.mjOBJ_EQUALITY, mj.mjs_asEquality, model.neq, (e) => e.active);
   return numbers;
 }
+// Two balls, 15 mm apart, with margins of 10 mm each.
+function addsMargins() {
+  const ball = "<body pos=\"0 0 X\"><freejoint/><geom size=\"0.1\" margin=\"0.01\"/></body>";
+  const text = `<mujoco><worldbody>${ball.replace("X", "0")}${ball.replace("X", "0.215")}</worldbody></mujoco>`;
+  const model = mj.mj_compile(mj.parseXMLString(text, new mj.MjVFS()), new mj.MjVFS()), data = new mj.MjData(model);
+  mj.mj_forward(model, data);
+  return data.ncon > 0;
+}
 try {
   const [spec, model] = compiled();
   const object = mj.mjtObj, names = {};
   const kinds = { body: [object.mjOBJ_BODY, model.nbody], joint: [object.mjOBJ_JOINT, model.njnt], geom: [object.mjOBJ_GEOM, model.ngeom],
     site: [object.mjOBJ_SITE, model.nsite], tendon: [object.mjOBJ_TENDON, model.ntendon], actuator: [object.mjOBJ_ACTUATOR, model.nu],
     equality: [object.mjOBJ_EQUALITY, model.neq], keyframe: [object.mjOBJ_KEY, model.nkey] };
-  for (const [kind, [type, count]] of Object.entries(kinds))
-    names[kind] = Array.from({ length: count }, (_, id) => mj.mj_id2name(model, type.value, id) ?? "");
+  for (const [kind, [type, count]] of Object.entries(kinds)) {
+    names[kind] = new Array(count).fill("");
+    for (const [id, e] of elements(spec, type)) if (id >= 0 && id < count) names[kind][id] = mj.mjs_getName(e);
+  }
   const numbers = numbersOf(model, spec, object), data = new mj.MjData(model);
   const off = Object.entries(mj.mjtDisableBit).filter(([word, bit]) => word.startsWith("mjDSBL_") && (model.opt.disableflags & bit.value) !== 0)
     .map(([word]) => word.slice(7).toLowerCase());
   const key = request.keyframe === "" ? -1 : names.keyframe.map((name, i) => name || String(i)).indexOf(request.keyframe);
   if (key >= 0) mj.mj_resetDataKeyframe(model, data, key);
   mj.mj_kinematics(model, data), mj.mj_comPos(model, data), mj.mj_comVel(model, data);
-  for (const name of ["xpos", "xquat", "qpos", "ctrl", "act"]) numbers[name] = Array.from(data[name]);
+  for (const name of ["xpos", "xquat", "xanchor", "xaxis", "qpos", "ctrl", "act"]) numbers[name] = Array.from(data[name]);
   const velocity = new mj.DoubleBuffer(6);
   numbers.velocity = [];
   for (let body = 0; body < model.nbody; ++body) {
     mj.mj_objectVelocity(model, data, object.mjOBJ_XBODY.value, body, velocity, 0);
     numbers.velocity.push(...velocity.GetView());
   }
-  answer({ ok: true, version: mj.mj_versionString(), numbers, names, off, warnings });
+  answer({ ok: true, version: mj.mj_versionString(), numbers, names, off, warnings, addsMargins: addsMargins() });
 } catch (error) {
   answer({ ok: false, version: mj.mj_versionString(), why: String(error?.message ?? error) + " " + warnings.join(" ") });
 }
@@ -109,8 +120,6 @@ const std::vector<std::string> kArrays = {"body_parentid",
                                           "jnt_stiffness",
                                           "jnt_stiffnesspoly",
                                           "jnt_range",
-                                          "jnt_pos",
-                                          "jnt_axis",
                                           "dof_armature",
                                           "dof_damping",
                                           "dof_dampingpoly",
@@ -207,6 +216,7 @@ CompiledMjcf read_with_mujoco3(const MjcfSource& source) {
   CompiledMjcf model;
   model.parser = "MuJoCo " + answer.at("version").get<std::string>();
   if (!answer.at("ok").get<bool>()) refuse_for(source, model.parser, answer.at("why").get<std::string>());
+  model.adds_margins = answer.at("addsMargins").get<bool>();
   for (const auto& [name, values] : answer.at("numbers").items()) {
     std::vector<double>& row = model.numbers[name];
     for (const Json& value : values)  // JSON has no infinity

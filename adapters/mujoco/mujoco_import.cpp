@@ -70,6 +70,7 @@ void keep_start(const mjModel& model, const std::string& keyframe, CompiledMjcf&
   }
   mj_kinematics(&model, data.get()), mj_comPos(&model, data.get()), mj_comVel(&model, data.get());
   keep(out, "xpos", data->xpos, 3L * model.nbody), keep(out, "xquat", data->xquat, 4L * model.nbody);
+  keep(out, "xanchor", data->xanchor, 3L * model.njnt), keep(out, "xaxis", data->xaxis, 3L * model.njnt);
   keep(out, "qpos", data->qpos, model.nq), keep(out, "ctrl", data->ctrl, model.nu);
   keep(out, "act", data->act, model.na);
   for (int body = 0; body < model.nbody; ++body) {
