@@ -46,6 +46,48 @@ std::optional<Shape> shape_of(MjcfImport& import, int geom, const BodyPose& pose
   }
 }
 
+// Makes a shape larger on all sides. Returns false for a shape that another one of its kind would not equal.
+struct Grown {
+  double by;  // m
+  bool operator()(Sphere& sphere) const { return sphere.radius += by, true; }
+  bool operator()(Capsule& capsule) const { return capsule.radius += by, true; }
+  bool operator()(Cylinder& cylinder) const { return cylinder.radius += by, cylinder.length += 2 * by, true; }
+  bool operator()(Box& box) const { return box.size.array() += 2 * by, true; }
+  bool operator()(Plane& plane) const { return plane.offset += by, true; }
+  template <typename Curved>
+  bool operator()(Curved&) const {
+    return false;
+  }
+};
+
+bool has_edges(const Shape& shape) {
+  return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Box>(shape);
+}
+
+// Contacts of a pair act where its gap is below its margin, as if the margin were the surface. Two round or flat shapes
+// that are larger by their shares touch at the same points.
+void grow_by_margin(MjcfImport& import, int geom, LinkShape& shape) {
+  const auto margin = [&](int k) { return import.value("geom_margin", k) - import.value("geom_gap", k); };
+  const double own = margin(geom);
+  bool all_alike = true;
+  for (int k = 0; k < import.count("geom_type"); ++k) {
+    const bool collides = import.whole("geom_contype", k) != 0 || import.whole("geom_conaffinity", k) != 0;
+    if (collides && margin(k) != own) all_alike = false;
+  }
+  if (own <= 0 && (all_alike || import.m.adds_margins)) return;
+  if (!all_alike && !import.m.adds_margins) {
+    const std::string why = fmt::format("{} takes the larger of two, and those of this model differ", import.m.parser);
+    return import.lose("geom", geom, "a margin", why);
+  }
+  const double share = import.m.adds_margins ? own : own / 2;
+  if (!std::visit(Grown{share}, shape.shape))
+    return import.lose("geom", geom, "a margin", "makes contacts of a curved or pointed shape act at a distance");
+  const char* edges = has_edges(shape.shape) ? "; its edges stay sharp, where the margin would round them" : "";
+  import.model.left_out.add(
+      shape.where, "a margin",
+      assumed(fmt::format("the shape is larger by {:g} m, as {} reads the file{}", share, import.m.parser, edges)));
+}
+
 void read_geom(MjcfImport& import, int geom) {
   const std::string where = import.at("geom", geom);
   const auto type = static_cast<unsigned>(import.whole("geom_contype", geom)),
@@ -56,12 +98,11 @@ void read_geom(MjcfImport& import, int geom) {
       import.pose_of(body) * BodyPose{import.vector("geom_pos", geom), import.turn("geom_quat", geom)};
   const auto shape = shape_of(import, geom, pose);
   if (!shape) return;
-  LinkShape out{*shape, pose, {0, import.value("geom_friction", 3 * geom)}, type, affinity, where};
-  const int condim = import.whole("geom_condim", geom);
-  out.slips = condim == 1, out.priority = import.whole("geom_priority", geom);
-  if (condim > 3) import.lose("geom", geom, "torsional friction", "acts against spinning and rolling: no scene has it");
-  if (import.value("geom_margin", geom) - import.value("geom_gap", geom) > 0)
-    import.lose("geom", geom, "a margin", "makes contacts act at a distance");
+  const auto friction = [&](int k) { return import.value("geom_friction", 3 * geom + k); };
+  LinkShape out{*shape, pose, {.friction = friction(0)}, type, affinity, where};
+  out.surface.torsional_friction = friction(1), out.surface.rolling_friction = friction(2);
+  out.dimensions = import.whole("geom_condim", geom), out.priority = import.whole("geom_priority", geom);
+  grow_by_margin(import, geom, out);
   if (body > 0) {
     import.model.links[MjcfImport::link_of(body)].shapes.push_back(out);
     return;

@@ -83,6 +83,7 @@ EngineInfo MujocoEngine::info() const {
                                                Feature::coupling,
                                                Feature::joint_spring,
                                                Feature::joint_damper,
+                                               Feature::joint_friction,
                                                Feature::joint_limit,
                                                Feature::joint_limit_beyond_half_turn,
                                                Feature::joint_limit_of_compound_slider,

@@ -201,7 +201,7 @@ class Exporter {
           numbers(row.point ? point_in(body, *row.point) : Vec3::Zero().eval()));
       const bool is_turned_round = is_reversed && row.coordinate >= 0;
       if (row.axis) add(" axis=\"{}\"", numbers(direction_in(body, is_turned_round ? Vec3(-*row.axis) : *row.axis)));
-      if (row.coordinate >= 0) add("{}", coordinate_of(scene_.joints[row.coordinate]));
+      if (row.coordinate >= 0) add("{}", coordinate_of(row.coordinate));
       add("/>\n");
     }
   }
@@ -210,10 +210,13 @@ class Exporter {
     return joint_name(joint) + (element == 0 ? "" : element == 1 ? "/2" : "/3");
   }
 
-  static std::string coordinate_of(const Joint& joint) {
+  std::string coordinate_of(int index) const {
+    const Joint& joint = scene_.joints[index];
     std::string text =
         fmt::format(R"( stiffness="{}" springref="{}" damping="{}")", joint.stiffness, joint.rest, joint.damping);
     if (joint.armature > 0) text += fmt::format(R"( armature="{}")", joint.armature);
+    if (const double friction = mjcf_frictionloss(scene_, index); friction > 0)
+      text += fmt::format(R"( frictionloss="{}")", friction);
     constexpr double kFar = 1e6;  // MuJoCo bounds a joint on both sides or on none
     if (joint.has_limits())
       text +=
@@ -278,10 +281,14 @@ class Exporter {
   }
 
   void add_motors() {
-    for (const Motor& motor : scene_.motors)
-      leave_out(fmt::format("{} {}", motor.is_friction ? "friction in" : "a motor on",
-                            scene_.joint_name(static_cast<std::size_t>(motor.joint))),
-                "MuJoCo's files have no efforts that last for a time");
+    for (const Motor& motor : scene_.motors) {
+      if (!motor.is_friction)
+        leave_out(fmt::format("a motor on {}", scene_.joint_name(static_cast<std::size_t>(motor.joint))),
+                  "MuJoCo's files have no efforts that last for a time");
+      else if (closes_loop(scene_, tree_, motor.joint))
+        leave_out(fmt::format("friction in {}", scene_.joint_name(static_cast<std::size_t>(motor.joint))),
+                  "MuJoCo has no coordinate of a joint that closes a loop");
+    }
   }
 
   // The velocities at t = 0, in MuJoCo's coordinates; its poses are those of the file.

@@ -243,8 +243,9 @@ class Writer {
       if (row.axis) add(R"( axis="{}")", text_of(direction_in(body, *row.axis)));
       if (row.coordinate >= 0) {
         const Joint& joint = scene_.joints[row.coordinate];
-        add(R"( stiffness="{}" springref="{}" damping="{}" armature="{}"{})", joint.stiffness, sign * joint.rest,
-            joint.damping, joint.armature, limits_of(joint, sign));
+        add(R"( stiffness="{}" springref="{}" damping="{}" armature="{}" frictionloss="{}"{})", joint.stiffness,
+            sign * joint.rest, joint.damping, joint.armature, mjcf_frictionloss(scene_, row.coordinate),
+            limits_of(joint, sign));
       }
       add("/>");
     }
@@ -361,6 +362,14 @@ std::string mjcf_geom_name(int body, int part) {
 }
 
 std::string mjcf_shape(const Shape& shape, const std::string& mesh) { return std::visit(GeomOf{mesh}, shape); }
+
+double mjcf_frictionloss(const Scene& scene, int joint) {
+  double most = 0;
+  for (const Motor& motor : scene.motors) {
+    if (motor.joint == joint && motor.is_friction) most += motor.most;
+  }
+  return most;
+}
 
 std::string mjcf_pose(const BodyPose& pose) {
   return fmt::format(R"( pos="{}" quat="{}")", text_of(pose.position), text_of(pose.orientation));

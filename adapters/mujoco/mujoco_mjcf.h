@@ -52,6 +52,9 @@ bool closes_loop(const Scene& scene, const SpanningTree& tree, int joint);
 // The body that hangs on its parent by this joint or by its compound joint; kWorld if it closes a loop.
 int body_on(const Scene& scene, const SpanningTree& tree, int joint);
 
+// The Coulomb friction of a joint's coordinate, N m or N.
+double mjcf_frictionloss(const Scene& scene, int joint);
+
 // The equality that closes a loop. A hinge is two points on its axis, a metre apart: of their six rows five count.
 struct MjcfLoop {
   enum class Equality { connect, tendon, weld, none } equality;

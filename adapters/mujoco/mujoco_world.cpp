@@ -52,6 +52,15 @@ void stiffen_limits(mjModel& model, double dt) {
   }
 }
 
+// A joint's friction ends its speed within a step. Its softness still lets the joint creep under a load.
+void stiffen_friction(mjModel& model, double dt) {
+  for (int i = 0; i < model.nv; ++i) {
+    if (model.dof_frictionloss[i] == 0) continue;
+    model.dof_solref[mjNREF * i] = 0, model.dof_solref[mjNREF * i + 1] = -1 / dt;
+    std::copy(kImpedance, kImpedance + mjNIMP, model.dof_solimp + mjNIMP * i);
+  }
+}
+
 // Contacts keep the shipped time constant (0.02 s, at least 2 dt). Friction that ends a slide at once would press the
 // bodies apart, and they would hop. Only the share of the law's acceleration is changed: the shipped 0.9 lets bodies
 // creep down slopes that should hold them. With 0.9999 the solver's line search sometimes fails.
@@ -122,7 +131,10 @@ void MujocoWorld::archive_state(StateArchive& archive) {
 void MujocoWorld::step(double dt) {
   if (!lost_) {
     made_.model->opt.timestep = dt;
-    if (matched_ && dt != stiff_dt_) stiffen_loops(*made_.model, dt), stiffen_limits(*made_.model, stiff_dt_ = dt);
+    if (matched_ && dt != stiff_dt_) {
+      stiffen_loops(*made_.model, dt), stiffen_limits(*made_.model, dt), stiffen_friction(*made_.model, dt);
+      stiff_dt_ = dt;
+    }
     apply_loads(dt);
     mj_step(made_.model.get(), data_.get());
     look_for_warnings();

@@ -24,8 +24,10 @@ struct LinkShape {
   ContactLaw surface;               // of this shape; LinkModel::combine makes a pair's
   unsigned type = 1, affinity = 1;  // two shapes may touch if a bit of one's type is in the other's affinity
   std::string where;                // for messages: "file:line: collision 'foot'"
-  bool slips = false;               // has friction only against a shape that does not slip
-  int priority = 0;                 // the surface of the greater one counts alone
+  // Of a contact's force, as MJCF's condim counts them: 1 has no friction, 3 has sliding friction, 4 torsional and 6
+  // also rolling friction. The larger number of two shapes counts.
+  int dimensions = 6;
+  int priority = 0;  // the surface of the greater one counts alone
 };
 
 struct Link {
@@ -44,10 +46,10 @@ struct LinkJoint {
   Joint joint;       // a and b: links, or kWorld; anchor and axes in W
   double start = 0;  // rad, m: where it is at t = 0; a scene's joint counts from there
   std::string where = "";
-  double friction = 0;   // N m, N: Coulomb friction on the free axis
-  double armature = 0;   // kg m², kg: inertia of the rotor, added on the axis
+  double friction = 0;     // N m, N: Coulomb friction on the free axis
+  double armature = 0;     // kg m², kg: inertia of the rotor, added on the axis
   bool is_driven = false;  // a motor or a coupling names it
-  bool is_loop = false;  // closes a loop beside the tree: its links may touch each other
+  bool is_loop = false;    // closes a loop beside the tree: its links may touch each other
 };
 
 // coordinate(joint) = ratio * coordinate(to) + offset, both counted from the file's zeros.
@@ -66,7 +68,7 @@ struct LinkModel {
   std::vector<Motor> motors;    // joint: of `joints`
   std::vector<LinkCoupling> couplings;
   std::vector<std::pair<int, int>> kept_apart;  // links that never touch, beside those that a joint holds together
-  bool has_state = false;                       // the file says where each joint starts
+  bool has_state = false;                       // somebody chose where each joint starts
   bool keeps_overlaps_apart = false;            // the file does not say which links touch
   double (*combine)(double, double) = nullptr;  // of two surfaces' friction, and of their restitution
   LeftOut left_out;

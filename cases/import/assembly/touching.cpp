@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "cases/import/assembly/rigid_groups.h"
 
@@ -48,16 +49,23 @@ Touching::Pairs overlapping(const std::vector<ContactSource>& sources, const Sce
 // The law of two shapes.
 ContactLaw law_of(const LinkModel& model, const LinkShape& a, const LinkShape& b) {
   const LinkShape* chosen = a.priority > b.priority ? &a : b.priority > a.priority ? &b : nullptr;
-  const ContactLaw law = chosen ? chosen->surface
-                                : ContactLaw{model.combine(a.surface.restitution, b.surface.restitution),
-                                             model.combine(a.surface.friction, b.surface.friction)};
-  const bool slips = chosen ? chosen->slips : a.slips && b.slips;
-  return {law.restitution, slips ? 0 : law.friction};
+  ContactLaw law = chosen ? chosen->surface : a.surface;
+  if (!chosen) {
+    for (double ContactLaw::*value : {&ContactLaw::restitution, &ContactLaw::friction, &ContactLaw::torsional_friction,
+                                      &ContactLaw::rolling_friction})
+      law.*value = model.combine(a.surface.*value, b.surface.*value);
+  }
+  const int dimensions = chosen ? chosen->dimensions : std::max(a.dimensions, b.dimensions);
+  if (dimensions < 3) law.friction = 0;
+  if (dimensions < 4) law.torsional_friction = 0;
+  if (dimensions < 6) law.rolling_friction = 0;
+  return law;
 }
 
-bool same(const ContactLaw& a, const ContactLaw& b) {
-  return a.restitution == b.restitution && a.friction == b.friction && a.collides == b.collides;
+auto numbers_of(const ContactLaw& law) {
+  return std::tuple(law.restitution, law.friction, law.collides, law.torsional_friction, law.rolling_friction);
 }
+bool same(const ContactLaw& a, const ContactLaw& b) { return numbers_of(a) == numbers_of(b); }
 
 // Finds the law of each pair of sources.
 class PairLaws {
@@ -120,19 +128,20 @@ class PairLaws {
 
   // Of the pairs that touch; without any, of shapes against their like.
   ContactLaw most_frequent(const std::vector<ContactPair>& rows) const {
-    std::map<std::pair<double, double>, int> count;
+    std::map<decltype(numbers_of(ContactLaw())), std::pair<int, ContactLaw>> count;
+    const auto see = [&](const ContactLaw& law) {
+      auto& [times, seen] = count[numbers_of(law)];
+      ++times, seen = law;
+    };
     for (const ContactPair& row : rows) {
-      if (row.law.collides) ++count[{row.law.restitution, row.law.friction}];
+      if (row.law.collides) see(row.law);
     }
     for (const ContactSource& source : count.empty() ? sources_ : std::vector<ContactSource>()) {
-      for (const ContactSource::Part& part : source.parts) {
-        const ContactLaw law = law_of(model_, *part.shape, *part.shape);
-        ++count[{law.restitution, law.friction}];
-      }
+      for (const ContactSource::Part& part : source.parts) see(law_of(model_, *part.shape, *part.shape));
     }
-    const auto most =
-        std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    return most == count.end() ? ContactLaw{} : ContactLaw{most->first.first, most->first.second};
+    const auto most = std::max_element(count.begin(), count.end(),
+                                       [](const auto& a, const auto& b) { return a.second.first < b.second.first; });
+    return most == count.end() ? ContactLaw{} : most->second.second;
   }
 
   LinkModel& model_;

@@ -5,6 +5,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <ctime>
+#include <numbers>
 
 #include "adapters/models.h"
 #include "adapters/mujoco/mujoco_library.h"
@@ -87,6 +88,56 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_exported_starts_and_moves_there_as_it_does_h
   }
 }
 
+// Friction comes back from the file that it was written to.
+BOOST_AUTO_TEST_CASE(friction_of_a_joint_is_exported) {
+  const std::string suite = RIGOR_SOURCE_DIR "/cases/suite/";
+  const Scene scene = read_case(suite + "drives/friction-slider.toml", "drives/friction-slider", words()).scene;
+  LeftOut left_out;
+  const Folder folder;
+  const Scene back = scene_of_file(folder.write("case.xml", mjcf_of(scene, left_out)));
+  BOOST_TEST(left_out.sentences().empty());
+  BOOST_TEST_REQUIRE(back.motors.size() == 1u);
+  BOOST_TEST((back.motors[0].is_friction && back.motors[0].most == 5));
+}
+
+// Two balls and a ground whose margins add up, or of which the larger counts: each is larger by its share. A box has
+// sharp edges then, which is said; an ellipsoid would be no ellipsoid.
+BOOST_AUTO_TEST_CASE(a_margin_makes_shapes_larger) {
+  const auto text = [](const std::string& geom, const std::string& of_ground) {
+    return R"(<mujoco><worldbody><geom type="plane" size="1 1 1" pos="0 0 -1" margin=")" + of_ground +
+           R"("/><body pos="0 0 1"><freejoint/><geom )" + geom + R"( margin="0.02"/></body></worldbody></mujoco>)";
+  };
+  const Scene ball = scene_of_text("m.xml", text("size='0.1'", "0.02"));
+  const double gap =
+      std::get<Sphere>(*ball.bodies[0].shape).radius - 0.1 + std::get<Plane>(*ball.bodies[1].shape).offset + 1;
+  BOOST_TEST(std::abs(gap - 0.02) < 1e-15);  // MuJoCo 2.2.2 takes the larger margin of the two
+  BOOST_TEST(std::abs(ball.bodies[0].mass - 1000 * 4.0 / 3 * std::numbers::pi * 1e-3) < 1e-12);  // of the ball as drawn
+  const std::string box = text("type='box' size='0.1 0.1 0.1'", "0.02");
+  BOOST_TEST(some_has(left_out_of_model("m.xml", box), "its edges stay sharp"));
+  BOOST_TEST(physics_lost("m.xml", box).empty());
+  BOOST_TEST(some_has(physics_lost("m.xml", text("type='ellipsoid' size='0.1 0.2 0.3'", "0.02")), "a margin"));
+  BOOST_TEST(some_has(physics_lost("m.xml", text("size='0.1'", "0.01")), "takes the larger of two"));
+}
+
+// A pair has the larger numbers of both geoms, and the larger number of dimensions says which count.
+BOOST_AUTO_TEST_CASE(torsional_and_rolling_friction_are_imported) {
+  const auto law = [](const std::string& of_ball) {
+    const Scene scene =
+        scene_of_text("m.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1" friction="0.5 0.01 0.002"/>
+          <body pos="0 0 1"><freejoint/><geom size="0.1" )" +
+                                   of_ball + R"(/></body></worldbody></mujoco>)");
+    return scene.contact_law(0, 1);
+  };
+  const ContactLaw six = law(R"(condim="6" friction="0.8 0.003 0.004")");
+  BOOST_TEST((six.friction == 0.8 && six.torsional_friction == 0.01 && six.rolling_friction == 0.004));
+  const ContactLaw four = law(R"(condim="4" friction="0.8 0.003 0.004")");
+  BOOST_TEST((four.friction == 0.8 && four.torsional_friction == 0.01 && four.rolling_friction == 0));
+  const ContactLaw three = law(R"(condim="1" friction="0.8 0.003 0.004")");
+  BOOST_TEST((three.friction == 0.8 && three.torsional_friction == 0 && three.rolling_friction == 0));
+  const ContactLaw chosen = law(R"(condim="1" priority="1")");
+  BOOST_TEST((chosen.friction == 0 && chosen.torsional_friction == 0));
+}
+
 // A motor, a servo, and a servo whose control its range cuts off, as their keyframe controls them.
 const std::string kControlled = R"(<mujoco><compiler angle="radian" autolimits="false"/><worldbody>
   <body name="a" pos="0 0 1"><joint name="ja" axis="0 1 0"/><inertial pos="0.3 0 0" mass="2" diaginertia="0.2 0.25 0.1"/></body>
@@ -141,6 +192,29 @@ BOOST_AUTO_TEST_CASE(a_keyframe_is_a_state_to_start_from) {
                         says("has no keyframe 'bend' (did you mean 'bent'?)"));
   BOOST_CHECK_EXCEPTION(import_model(kModels + "arm.urdf", {.keyframe = "home"}), InputError,
                         says("a file of this format has none"));
+}
+
+// Each joint of a body turns the axes of those before it no longer: at this start the body's frame has all three turns.
+const std::string kThreeAxes = R"(<mujoco><compiler angle="radian" autolimits="false"/><worldbody>
+  <body name="carried" pos="0 0 2"><joint name="along" type="slide" axis="1 0 0.5"/><joint name="about" axis="0 0 1"/>
+    <inertial pos="0.1 0 -0.2" mass="2" fullinertia="0.2 0.25 0.1 0.01 0 0"/>
+    <body name="waist" pos="0 0 -0.5"><joint name="z" axis="0 0 1" pos="0 0 0.1" damping="0.2"/>
+      <joint name="y" axis="0 1 0.2" pos="0 0 0.1" stiffness="4" limited="true" range="-2 2"/><joint name="x" axis="1 0 0" armature="0.02"/>
+      <inertial pos="0 0.05 -0.4" mass="1" diaginertia="0.1 0.12 0.02"/></body></body></worldbody>
+  <actuator><motor joint="z" gear="2"/><position joint="y" kp="3"/></actuator>
+  <keyframe><key name="bent" qpos="0.2 0.7 0.5 -0.8 0.9" qvel="0.3 -0.4 1 0.5 -0.6" ctrl="0.5 0.3"/></keyframe></mujoco>)";
+
+BOOST_AUTO_TEST_CASE(joints_in_series_start_about_the_axes_that_the_state_gives_them) {
+  const Folder folder;
+  const std::string path = folder.write("three.xml", kThreeAxes);
+  const Import made = import_model(path, {.keyframe = "bent"});
+  BOOST_TEST(losses_of(made.losses, LossKind::physical).empty());
+  const Scene scene = read_case_text(case_text_of(made), path, path, words()).scene;
+  Own own(path);
+  mj_resetDataKeyframe(own.model.get(), own.data.get(), 0);
+  mj_forward(own.model.get(), own.data.get());
+  check_start(own, scene);
+  check_alike("three.xml", apart_after(own, "mujoco", without_limits(scene), 1));
 }
 
 // A scene's joints would hold the bodies as they find them, apart.

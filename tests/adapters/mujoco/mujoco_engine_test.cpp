@@ -158,6 +158,29 @@ BOOST_AUTO_TEST_CASE(limits_stop_within_a_step_and_hardly_sink) {
   }
 }
 
+// A block of 2 kg on a rail with 5 N of friction. A larger force accelerates it by (F - 5 N) / 2 kg. A smaller one
+// holds, but for the softness: 1e-4 of the law's acceleration F/m is let through in each step, and it is gone in the
+// next.
+BOOST_AUTO_TEST_CASE(the_friction_of_a_joint_holds_or_takes_its_share) {
+  const double dt = 1e-3;
+  for (const double force : {3.0, -3.0, 9.0, -9.0}) {
+    Scene scene;
+    scene.bodies = {rod("block", {0, 0, 0})};
+    scene.bodies[0].mass = 2;
+    scene.joints = {{.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitX()}}};
+    Motor friction{.joint = 0, .speed = 0};
+    friction.most = 5, friction.is_friction = true;
+    Motor push{.joint = 0, .speed = {}};
+    push.effort = force;
+    scene.motors = {friction, push};
+    const double v = body_after(*load_run("mujoco", scene), dt, 1000).velocity.x();
+    const double slides = force > 5 ? (force - 5) / 2 : force < -5 ? (force + 5) / 2 : 0;  // m/s after 1 s
+    BOOST_TEST_CONTEXT(force << " N: " << v << " m/s") {
+      BOOST_TEST(std::abs(v - slides) < (slides == 0 ? 2e-4 * std::abs(force) / 2 * dt : 1e-9));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
   Scene scene = hung_by({.a = 0, .b = 1, .type = SliderJoint{Vec3::UnitX()}});
   scene.joints.push_back({.a = kWorld, .b = 1, .type = SliderJoint{Vec3::UnitX()}});
@@ -176,7 +199,8 @@ BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
     motor.effort = 1;
     if (damping == 0) loop.motors = {motor, motor, motor}, loop.motors[1].joint = 2, loop.motors[2].joint = 3;
     BOOST_CHECK_EXCEPTION(load_run("mujoco", loop), EngineFailure, [](const EngineFailure& failure) {
-      return std::string(failure.what()).find("no spring, damper, limit, motor, armature or coupling") != std::string::npos;
+      return std::string(failure.what()).find("no spring, damper, limit, motor, armature or coupling") !=
+             std::string::npos;
     });
   }
   Scene chain;
