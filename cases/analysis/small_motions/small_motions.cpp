@@ -122,16 +122,24 @@ ElementRows elements_of(const Scene& scene, const VelocityRows& rows) {
          spring.stiffness, spring.damping});
     found.rows.push_back(rows.point_row(spring.a, arm_a, spring.b, arm_b, line.normalized()));
   }
-  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+  const auto add_on_joint = [&](std::size_t i, const std::string& name, double stiffness, double damping, bool servo) {
     const Joint& joint = scene.joints[i];
     const Vec3* axis = free_axis(joint);
-    if (!axis || (joint.stiffness == 0 && joint.damping == 0)) continue;
+    if (!axis || (stiffness == 0 && damping == 0)) return;
     const bool is_hinge = std::holds_alternative<HingeJoint>(joint.type);
-    found.elements.push_back({is_hinge ? ForceElement::Kind::hinge : ForceElement::Kind::slider, scene.joint_name(i),
-                              joint.stiffness, joint.damping});
+    found.elements.push_back(
+        {is_hinge ? ForceElement::Kind::hinge : ForceElement::Kind::slider, name, stiffness, damping, servo});
     const Vec3 to_b = rows.centre(joint.b) - rows.centre(joint.a);
     found.rows.push_back(is_hinge ? rows.turn_row(joint.a, joint.b, *axis)
                                   : rows.point_row(joint.a, to_b, joint.b, Vec3::Zero(), *axis));
+  };
+  for (std::size_t i = 0; i < scene.joints.size(); ++i)
+    add_on_joint(i, scene.joint_name(i), scene.joints[i].stiffness, scene.joints[i].damping, false);
+  for (const Motor& motor : scene.motors) {
+    const auto i = static_cast<std::size_t>(motor.joint);
+    // A sampled servo holds its effort for its period, at any dt.
+    if (motor.servo && motor.servo->period == 0)
+      add_on_joint(i, fmt::format("the servo of {}", scene.joint_name(i)), motor.servo->kp, motor.servo->kd, true);
   }
   return found;
 }
@@ -197,9 +205,21 @@ void SmallMotions::find_stiffest(const DenseMatrix& response) {
 }
 
 const ForceElement* SmallMotions::most_damped() const {
-  const auto most = std::max_element(elements_.begin(), elements_.end(),
-                                     [](const auto& a, const auto& b) { return a.damping_rate() < b.damping_rate(); });
-  return most == elements_.end() || !(most->damping_rate() > 0) ? nullptr : &*most;
+  const ForceElement* most = nullptr;
+  for (const ForceElement& element : elements_) {
+    if (element.is_servo || !(element.damping_rate() > 0)) continue;
+    if (!most || element.damping_rate() > most->damping_rate()) most = &element;
+  }
+  return most;
+}
+
+const ForceElement* SmallMotions::stiffest_servo() const {
+  const ForceElement* most = nullptr;
+  for (const ForceElement& element : elements_) {
+    if (!element.is_servo) continue;
+    if (!most || largest_semi_implicit_step(alone(element)) < largest_semi_implicit_step(alone(*most))) most = &element;
+  }
+  return most;
 }
 
 Oscillator SmallMotions::alone(const ForceElement& element) {

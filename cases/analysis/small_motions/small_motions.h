@@ -10,13 +10,14 @@
 
 namespace rigor {
 
-// A spring, or a joint's own spring and damper: a force along one coordinate.
+// A spring, a joint's own spring and damper, or a servo that acts at each instant: a force along one coordinate.
 struct ForceElement {
   enum class Kind { spring, hinge, slider } kind = Kind::spring;
-  std::string name;      // "the spring of 'world' and 'cube'"; a joint's as Scene::joint_name
-  double stiffness = 0;  // N/m, N m/rad
-  double damping = 0;    // N s/m, N m s/rad
-  double inertia = 0;    // kg, kg m²: force over acceleration of the coordinate, all other coordinates free
+  std::string name;       // "the spring of 'world' and 'cube'"; a joint's as Scene::joint_name
+  double stiffness = 0;   // N/m, N m/rad
+  double damping = 0;     // N s/m, N m s/rad
+  bool is_servo = false;  // its stiffness and damping are kp and kd
+  double inertia = 0;     // kg, kg m²: force over acceleration of the coordinate, all other coordinates free
   double damping_rate() const { return damping / inertia; }  // 1/s
 };
 
@@ -34,8 +35,10 @@ class SmallMotions {
   const std::vector<ForceElement>& elements() const { return elements_; }
   // The mode with the highest frequency, its damping by Rayleigh's quotient.
   const Oscillator& stiffest() const { return stiffest_; }
-  // The element with the highest damping rate; null if nothing damps.
+  // The element with the highest damping rate, servos apart; null if nothing damps.
   const ForceElement* most_damped() const;
+  // The servo that limits a semi-implicit step most; null without servos.
+  const ForceElement* stiffest_servo() const;
   // The element alone, all other coordinates free.
   static Oscillator alone(const ForceElement& element);
 

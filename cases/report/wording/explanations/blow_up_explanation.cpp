@@ -57,20 +57,24 @@ class BlowUps {
     }
     if (blown.empty()) return {};
     motions_ = SmallMotions::of(result_.definition.scene);
-    std::vector<BlownUpRun> by_damper, by_spring;
+    std::vector<BlownUpRun> by_damper, by_servo, by_spring;
     std::vector<const Cell*> by_orientation, others;
-    const std::optional<BlowUpSuspect> damper = damper_suspect(), spring = spring_suspect();
+    const std::optional<BlowUpSuspect> damper = damper_suspect(), servo = servo_suspect(), spring = spring_suspect();
     for (const Cell* cell : blown) {
       const auto damped = damper ? growth_that_explains(*damper, *cell) : std::nullopt;
-      const auto sprung = spring && !damped ? growth_that_explains(*spring, *cell) : std::nullopt;
+      const auto driven = servo && !damped ? growth_that_explains(*servo, *cell) : std::nullopt;
+      const auto sprung = spring && !damped && !driven ? growth_that_explains(*spring, *cell) : std::nullopt;
       if (damped)
         by_damper.push_back({cell, damped});
+      else if (driven)
+        by_servo.push_back({cell, driven});
       else if (sprung)
         by_spring.push_back({cell, sprung});
       else
         (loses_orthonormality(*cell) ? by_orientation : others).push_back(cell);
     }
     if (!by_damper.empty()) tell_damper(*damper, by_damper);
+    if (!by_servo.empty()) tell_servo(*servo, by_servo);
     if (!by_spring.empty()) tell_spring(*spring, by_spring);
     if (!by_orientation.empty()) tell_orientation(by_orientation);
     if (!others.empty() && motions_) tell_unexplained(others);
@@ -86,6 +90,12 @@ class BlowUps {
     const double g = alone.rate * dt_.seconds, k = std::pow(alone.frequency * dt_.seconds, 2);
     if (!(g > 2) || 2 * g < k) return {};
     return BlowUpSuspect{most->name, most->kind, alone};
+  }
+
+  std::optional<BlowUpSuspect> servo_suspect() const {
+    const ForceElement* most = motions_ ? motions_->stiffest_servo() : nullptr;
+    if (!most || largest_semi_implicit_step(SmallMotions::alone(*most)) > dt_.seconds) return {};
+    return BlowUpSuspect{most->name, most->kind, SmallMotions::alone(*most)};
   }
 
   std::optional<BlowUpSuspect> spring_suspect() const {
@@ -176,8 +186,7 @@ class BlowUps {
 
   void tell_damper(const BlowUpSuspect& damper, const std::vector<BlownUpRun>& runs) {
     const auto& elements = motions_->elements();
-    const auto element = std::find_if(elements.begin(), elements.end(),
-                                      [&](const ForceElement& one) { return one.name == damper.part; });
+    const ForceElement& element = element_named(damper.part);
     const double ratio = damper.oscillator.rate * dt_.seconds;
     Claims claims;
     Claim exceeds = at_dt("damping times dt over inertia", ratio, damper.part);
@@ -186,15 +195,16 @@ class BlowUps {
     std::string text = fmt::format(
         "Why: {} has a damper of {} on {} of {}. At dt = {} s this makes c dt/{} = {}; a semi-implicit step needs less "
         "than 2.",
-        damper.part, claims.quantity(of_scene("damping", element->damping, damper.part), unit_of_damping(damper.kind)),
+        damper.part, claims.quantity(of_scene("damping", element.damping, damper.part), unit_of_damping(damper.kind)),
         is_hinge ? "an inertia" : "a mass",
-        claims.quantity(of_scene("inertia", element->inertia, damper.part), unit_of_inertia(damper.kind)), dt_.text,
+        claims.quantity(of_scene("inertia", element.inertia, damper.part), unit_of_inertia(damper.kind)), dt_.text,
         is_hinge ? "I" : "m", claims.quantity(exceeds, ""));
     text +=
         fmt::format(" In one step the energy of this motion grows by a factor of {}.", growths(claims, damper, runs));
-    const auto others = std::count_if(elements.begin(), elements.end(),
-                                      [&](const ForceElement& one) { return one.damping_rate() * dt_.seconds > 2; }) -
-                        1;
+    const auto others =
+        std::count_if(elements.begin(), elements.end(),
+                      [&](const ForceElement& one) { return !one.is_servo && one.damping_rate() * dt_.seconds > 2; }) -
+        1;
     if (others > 0)
       text += fmt::format(" {} other damper{} exceed{} that.",
                           claims.count(at_dt("other overdamped elements", static_cast<double>(others), damper.part)),
@@ -205,6 +215,39 @@ class BlowUps {
                         "s"),
         stable_runs(claims));
     messages_.push_back({"damper", text, "", claims.take()});
+  }
+
+  const ForceElement& element_named(const std::string& name) const {
+    const auto& elements = motions_->elements();
+    return *std::find_if(elements.begin(), elements.end(), [&](const ForceElement& one) { return one.name == name; });
+  }
+
+  void tell_servo(const BlowUpSuspect& servo, const std::vector<BlownUpRun>& runs) {
+    const ForceElement& element = element_named(servo.part);
+    const bool is_hinge = servo.kind == ForceElement::Kind::hinge;
+    const char* inertia = is_hinge ? "I" : "m";
+    Claims claims;
+    Claim exceeds = at_dt(
+        "servo's step", std::pow(servo.oscillator.frequency * dt_.seconds, 2) + 2 * servo.oscillator.rate * dt_.seconds,
+        servo.part);
+    exceeds.relation = Relation::above, exceeds.bound = 4;
+    std::string text = fmt::format(
+        "Why: {} has kp = {} and kd = {} on {} of {}. Its effort is that of a step's start, which needs kp dt²/{} + 2 "
+        "kd "
+        "dt/{} below 4. At dt = {} s this is {}.",
+        servo.part,
+        claims.quantity(of_scene("servo's kp", element.stiffness, servo.part), is_hinge ? "N m/rad" : "N/m"),
+        claims.quantity(of_scene("damping", element.damping, servo.part), unit_of_damping(servo.kind)),
+        is_hinge ? "an inertia" : "a mass",
+        claims.quantity(of_scene("inertia", element.inertia, servo.part), unit_of_inertia(servo.kind)), inertia,
+        inertia, dt_.text, claims.quantity(exceeds, ""));
+    text +=
+        fmt::format(" In one step the energy of this motion grows by a factor of {}.", growths(claims, servo, runs));
+    text += fmt::format(
+        " Remedy: dt below {}, or smaller gains{}.",
+        claims.quantity(of_scene("semi-implicit step", largest_semi_implicit_step(servo.oscillator), servo.part), "s"),
+        stable_runs(claims));
+    messages_.push_back({"servo", text, "", claims.take()});
   }
 
   // ", or an engine that is stable here: mujoco, simbody"
@@ -223,11 +266,14 @@ class BlowUps {
     return fmt::format(", or a run that is stable here: {}", fmt::join(names, ", "));
   }
 
+  // The motion may belong to both together.
+  const char* springs() const { return motions_->stiffest_servo() ? "spring and servo" : "spring"; }
+
   void tell_spring(const BlowUpSuspect& spring, const std::vector<BlownUpRun>& runs) {
     Claims claims;
     const double frequency = spring.oscillator.frequency;
     std::string text =
-        fmt::format("Why: the stiffest spring mode has ω = {}, so ω dt = {} at dt = {} s.",
+        fmt::format("Why: the stiffest {} mode has ω = {}, so ω dt = {} at dt = {} s.", springs(),
                     claims.quantity(of_scene("spring frequency", frequency, kMode), "rad/s"),
                     claims.quantity(at_dt("spring frequency times dt", frequency * dt_.seconds, kMode), ""), dt_.text);
     text += fmt::format(" In one step its energy grows by a factor of {}.", growths(claims, spring, runs));
@@ -275,7 +321,7 @@ class BlowUps {
     const double frequency = motions_->stiffest().frequency;
     std::string text = fmt::format("Not explained: why {} blew up.", fmt::join(names, ", "));
     if (frequency > 0)
-      text += fmt::format(" Small swings of the springs at the start have ω dt = {}, which does not explain it.",
+      text += fmt::format(" Small swings of the {}s at the start have ω dt = {}, which does not explain it.", springs(),
                           claims.quantity(at_dt("spring frequency times dt", frequency * dt_.seconds, kMode), ""));
     messages_.push_back({"blow-up", text, "", claims.take()});
   }

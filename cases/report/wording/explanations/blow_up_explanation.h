@@ -13,6 +13,8 @@ namespace rigor {
 //   spring frequency times dt
 //   damping, inertia            of the element `part`
 //   damping times dt over inertia
+//   servo's kp                  N m/rad, N/m, of the servo `part`; its kd is `damping`
+//   servo's step                kp dt²/I + 2 kd dt/I of the servo `part`
 //   overdamped elements         the number of elements whose damping times dt over inertia exceeds 2
 //   semi-implicit step          s, the largest at which semi-implicit Euler keeps the oscillator bounded: the stiffest
 //                               mode, or the element `part`

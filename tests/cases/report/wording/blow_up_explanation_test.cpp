@@ -79,6 +79,30 @@ BOOST_AUTO_TEST_CASE(a_joint_damper_too_strong_for_the_step_is_named_with_its_jo
   BOOST_TEST(!has(said, "search for the largest stable step"), said);
 }
 
+// A servo of 1 N m/rad and 0.05 N m s/rad on 9e-4 kg m²: 1.23 + 3.70 at 1/30 s. Its eigenvalue there is -1.61, so that
+// the energy grows by 2.61 a step.
+BOOST_AUTO_TEST_CASE(a_servo_too_stiff_for_the_step_is_named_with_its_joint_and_a_remedy) {
+  Scene scene;
+  scene.bodies = {test::body("hand", 0.7, {9e-4, 9e-4, 9e-4}, {0, 0, 0})};
+  scene.joints = {{.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3(1, 0, 0)}, .name = "wrist"}};
+  Servo servo;
+  servo.kp = 1, servo.kd = 0.05, servo.target = TimeTable::constant(0.3);
+  Motor motor{.joint = 0, .speed = {}};
+  motor.servo = servo;
+  scene.motors = {motor};
+  const Results grid = ran(scene, {"core:semi-implicit-euler", "ode", "mujoco", "simbody"}, kThirtieth, 5);
+  const std::string said = said_of(grid);
+  BOOST_TEST(
+      has(said, "the servo of joint 'wrist' has kp = 1 N m/rad and kd = 0.05 N m s/rad on an inertia of 9e-4 kg m²"),
+      said);
+  BOOST_TEST(has(said, "At dt = 1/30 s this is 4.9"), said);
+  BOOST_TEST(has(said, "2.61 ("), said);
+  BOOST_TEST(has(said, "Remedy: dt below 28 ms, or smaller gains"), said);
+  for (const char* part : {"Not explained", "has a damper"}) BOOST_TEST(!has(said, part), said);
+  motor.servo->period = 1.0 / 30, scene.motors = {motor};  // sampled: its period decides, and no smaller dt would help
+  BOOST_TEST(!has(said_of(ran(scene, {"ode"}, kThirtieth, 5)), "Remedy: dt below"));
+}
+
 BOOST_AUTO_TEST_CASE(an_orientation_that_is_no_rotation_is_the_reason_with_springs_and_without) {
   const std::string additive = "core:semi-implicit-euler,orientation=matrix-additive";
   Scene tumbling = test::tumbling_body();

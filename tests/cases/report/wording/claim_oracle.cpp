@@ -185,19 +185,25 @@ std::vector<Element> elements_of(const Scene& scene) {
           return (placed(now, spring.b, spring.point_b) - placed(now, spring.a, spring.point_a)).norm();
         });
   }
-  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-    const Joint& joint = scene.joints[i];
-    if (joint.stiffness == 0 && joint.damping == 0) continue;
+  const auto add_on_joint = [&](const Joint& joint, const std::string& name, double k, double c) {
+    if (k == 0 && c == 0) return;
     if (const auto* hinge = std::get_if<HingeJoint>(&joint.type)) {
-      add(scene.joint_name(i), joint.stiffness, joint.damping, true,
-          [&](const Scene& now) { return turn_of(scene, now, joint).dot(hinge->axis); });
+      add(name, k, c, true, [&](const Scene& now) { return turn_of(scene, now, joint).dot(hinge->axis); });
     } else if (const auto* slider = std::get_if<SliderJoint>(&joint.type)) {
-      add(scene.joint_name(i), joint.stiffness, joint.damping, false, [&](const Scene& now) {
+      add(name, k, c, false, [&](const Scene& now) {
         const Vec3 axis = now.pose(joint.a).orientation * (scene.pose(joint.a).orientation.conjugate() * slider->axis);
         const Vec3 place = placed(now, joint.a, local_of(scene, joint.a, scene.pose(joint.b).position));
         return axis.dot(now.pose(joint.b).position - place);
       });
     }
+  };
+  for (std::size_t i = 0; i < scene.joints.size(); ++i)
+    add_on_joint(scene.joints[i], scene.joint_name(i), scene.joints[i].stiffness, scene.joints[i].damping);
+  for (const Motor& motor : scene.motors) {
+    const auto i = static_cast<std::size_t>(motor.joint);
+    if (motor.servo && motor.servo->period == 0)
+      add_on_joint(scene.joints[i], fmt::format("the servo of {}", scene.joint_name(i)), motor.servo->kp,
+                   motor.servo->kd);
   }
   return found;
 }
@@ -604,13 +610,9 @@ std::optional<std::pair<double, double>> at_equal_cost_of(const Results& results
 // ---- one claim -----------------------------------------------------------------------------------------------------
 
 std::optional<double> of_motions(const Results& results, const Claim& claim) {
-  static const std::set<std::string> kOwn = {"spring frequency",
-                                             "spring frequency times dt",
-                                             "damping",
-                                             "inertia",
-                                             "damping times dt over inertia",
-                                             "other overdamped elements",
-                                             "semi-implicit step",
+  static const std::set<std::string> kOwn = {"spring frequency", "spring frequency times dt",     "damping",
+                                             "inertia",          "damping times dt over inertia", "servo's kp",
+                                             "servo's step",     "other overdamped elements",     "semi-implicit step",
                                              "energy growth"};
   if (!kOwn.contains(claim.quantity)) return {};
   const CaseResult* one = case_of(results, claim.of_case);
@@ -634,11 +636,14 @@ std::optional<double> of_motions(const Results& results, const Claim& claim) {
   }
   const std::size_t i = *element_named(motions, claim.part);
   if (claim.quantity == "damping") return motions.elements[i].c;
+  if (claim.quantity == "servo's kp") return motions.elements[i].k;
+  if (claim.quantity == "servo's step") return w * w * dt * dt + 2 * c * dt;
   if (claim.quantity == "inertia") return inertia_of(motions, i);
   if (claim.quantity == "damping times dt over inertia") return c * dt;
   double others = -1;
   for (std::size_t k = 0; k < motions.elements.size(); ++k)
-    others += motions.elements[k].c / inertia_of(motions, k) * dt > 2;
+    others +=
+        !motions.elements[k].name.starts_with("the servo") && motions.elements[k].c / inertia_of(motions, k) * dt > 2;
   return others;
 }
 
