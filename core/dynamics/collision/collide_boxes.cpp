@@ -113,32 +113,41 @@ Polygon facing(const BoxInSpace& box, const Vec3& n) {
   return face;
 }
 
-// `outward` looks from the reference box to the incident one; `n` from b to a.
+// The corners of the incident face over the reference face, with their gaps along `outward`, which looks from the
+// reference box to the incident one; `n` from b to a.
+struct FaceCorners {
+  Polygon face;
+  std::array<double, 12> gaps;
+  double least = std::numeric_limits<double>::infinity();
+
+  FaceCorners(const BoxInSpace& reference, const BoxInSpace& incident, const Vec3& outward)
+      : face(facing(incident, outward)) {
+    const Vec3 out_B = reference.pose.R.transpose() * outward;
+    int axis = 0;
+    out_B.cwiseAbs().maxCoeff(&axis);
+    for (int k = 1; k <= 2; ++k) {
+      const int side = (axis + k) % 3;
+      for (const int sign : {1, -1}) {
+        const Vec3 side_n = sign * reference.pose.R.col(side);
+        face = clipped(face, side_n, side_n.dot(reference.pose.p) + (1 + kOutside) * reference.half[side],
+                       static_cast<std::uint32_t>(2 * side + (sign > 0)));
+      }
+    }
+    const double level = outward.dot(reference.pose.p) + reference.half[axis];
+    for (int i = 0; i < face.count; ++i)
+      gaps[i] = outward.dot(face.corners[i].p) - level, least = std::min(least, gaps[i]);
+  }
+  void add(const Vec3& outward, const Vec3& n, std::uint32_t tag, Manifold& out) const {
+    for (int i = 0; i < face.count; ++i)
+      out.add(n, face.corners[i].p - 0.5 * gaps[i] * outward, gaps[i], face.corners[i].id ^ tag);
+  }
+};
+
 void add_face_contact(const BoxInSpace& reference, const BoxInSpace& incident, const Vec3& outward, const Vec3& n,
                       double separation, std::uint32_t tag, Manifold& out) {
-  Polygon face = facing(incident, outward);
-  const Vec3 out_B = reference.pose.R.transpose() * outward;
-  int axis = 0;
-  out_B.cwiseAbs().maxCoeff(&axis);
-  for (int k = 1; k <= 2; ++k) {
-    const int side = (axis + k) % 3;
-    for (const int sign : {1, -1}) {
-      const Vec3 side_n = sign * reference.pose.R.col(side);
-      face = clipped(face, side_n, side_n.dot(reference.pose.p) + (1 + kOutside) * reference.half[side],
-                     static_cast<std::uint32_t>(2 * side + (sign > 0)));
-    }
-  }
-  const double level = outward.dot(reference.pose.p) + reference.half[axis];
-  const auto gap_of = [&](int i) { return outward.dot(face.corners[i].p) - level; };
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < face.count; ++i) least = std::min(least, gap_of(i));
-  if (face.count > 0 && (separation <= 0 || least <= separation + kOutside * reference.half.minCoeff())) {
-    for (int i = 0; i < face.count; ++i) {
-      const double gap = gap_of(i);
-      out.add(n, face.corners[i].p - 0.5 * gap * outward, gap, face.corners[i].id ^ tag);
-    }
-    return;
-  }
+  const FaceCorners corners(reference, incident, outward);
+  const bool is_over = separation <= 0 || corners.least <= separation + kOutside * reference.half.minCoeff();
+  if (corners.face.count > 0 && is_over) return corners.add(outward, n, tag, out);
   // Apart, and its deepest corner past the other's face: that corner stands for the pair.
   const Vec3 n_B = incident.pose.R.transpose() * outward;
   const Vec3 corner = incident.pose.p - incident.pose.R * n_B.cwiseSign().cwiseProduct(incident.half);
@@ -152,7 +161,7 @@ Vec3 edge_middle(const BoxInSpace& box, int k, const Vec3& direction) {
   return box.pose.p + box.pose.R * local;
 }
 
-void add_edge_contact(const BoxInSpace& a, const BoxInSpace& b, const Axis& axis, Manifold& out) {
+ManifoldPoint edge_contact(const BoxInSpace& a, const BoxInSpace& b, const Axis& axis) {
   const Vec3 u = a.pose.R.col(axis.edge_a), v = b.pose.R.col(axis.edge_b);
   const Vec3 from_a = edge_middle(a, axis.edge_a, -axis.n), from_b = edge_middle(b, axis.edge_b, axis.n);
   const Vec3 line = from_b - from_a;
@@ -160,7 +169,18 @@ void add_edge_contact(const BoxInSpace& a, const BoxInSpace& b, const Axis& axis
   const double s = std::clamp((u.dot(line) - cosine * v.dot(line)) / sine2, -a.half[axis.edge_a], a.half[axis.edge_a]);
   const double t = std::clamp((cosine * u.dot(line) - v.dot(line)) / sine2, -b.half[axis.edge_b], b.half[axis.edge_b]);
   const Vec3 point = 0.5 * (from_a + s * u + from_b + t * v);
-  out.add(axis.n, point, axis.separation, static_cast<std::uint32_t>(0x200 + 3 * axis.edge_a + axis.edge_b));
+  return {axis.n, point, axis.separation, static_cast<std::uint32_t>(0x200 + 3 * axis.edge_a + axis.edge_b), 0, 0};
+}
+
+bool add_nearly_flat(const BoxInSpace& a, const BoxInSpace& b, const Axis& face, const ManifoldPoint& crossing,
+                     bool is_of_a, Manifold& out) {
+  if (face.n.cross(crossing.normal).norm() > kNearlyFlat) return false;
+  const BoxInSpace &reference = is_of_a ? a : b, &incident = is_of_a ? b : a;
+  const Vec3 outward = is_of_a ? Vec3(-face.n) : face.n;
+  const int first = out.size();
+  FaceCorners(reference, incident, outward).add(outward, face.n, is_of_a ? 0x2000 : 0x1000, out);
+  const double size = std::min(a.half.minCoeff(), b.half.minCoeff());
+  return put_crossing(crossing, kNearlyFlat * size + std::abs(crossing.gap), first, out);
 }
 
 }  // namespace
@@ -170,7 +190,9 @@ void collide_boxes(const Box& box_a, const Pose& pose_a, const Box& box_b, const
   const double preference = kFacePreference * std::min(a.half.minCoeff(), b.half.minCoeff());
   const Axis face_a = best_face(a, a, b), face_b = best_face(b, a, b), edges = best_edges(a, b);
   if (edges.separation > std::max(face_a.separation, face_b.separation) + preference) {
-    add_edge_contact(a, b, edges, out);
+    const bool is_of_a = edges.n.dot(face_a.n) >= edges.n.dot(face_b.n);
+    const ManifoldPoint crossing = edge_contact(a, b, edges);
+    if (!add_nearly_flat(a, b, is_of_a ? face_a : face_b, crossing, is_of_a, out)) out.add(crossing);
   } else if (face_b.separation > face_a.separation + preference) {
     add_face_contact(b, a, face_b.n, face_b.n, face_b.separation, 0x1000, out);
   } else {

@@ -162,9 +162,8 @@ std::size_t facing_of(const Placed& of, const Vec3& n) {
   return best;
 }
 
-// `normal` from b to a; the reference face looks along `axis.n`.
-void add_face(const Placed& reference, const Placed& incident, const HullAxis& axis, const Vec3& normal,
-              std::uint32_t tag, Manifold& out) {
+// The corners of the incident face over the reference face, which looks along `axis.n`.
+const HullPolygon& clipped_face(const Placed& reference, const Placed& incident, const HullAxis& axis) {
   static thread_local HullPolygon polygon, clipped;
   const Hull::Face& face = incident.hull->faces[facing_of(incident, axis.n)];
   polygon.clear();
@@ -178,23 +177,34 @@ void add_face(const Placed& reference, const Placed& incident, const HullAxis& a
     clip(polygon, side, side.dot(from) + kHullOutside * reference.inradius, static_cast<std::uint32_t>(k), clipped);
     polygon.swap(clipped);
   }
+  return polygon;
+}
+
+// `normal` from b to a.
+void add_corners(const HullPolygon& polygon, const Placed& reference, const HullAxis& axis, const Vec3& normal,
+                 std::uint32_t tag, Manifold& out) {
+  const double level = reference.offsets[Placed::index(axis.a)];
+  const std::size_t step = (polygon.size() + kMostOfFace - 1) / kMostOfFace;
+  for (std::size_t i = 0; i < polygon.size(); i += step) {
+    const double gap = axis.n.dot(polygon[i].p) - level;
+    out.add(normal, polygon[i].p - 0.5 * gap * axis.n, gap, polygon[i].id ^ tag);
+  }
+}
+
+void add_face(const Placed& reference, const Placed& incident, const HullAxis& axis, const Vec3& normal,
+              std::uint32_t tag, Manifold& out) {
+  const HullPolygon& polygon = clipped_face(reference, incident, axis);
   const double level = reference.offsets[Placed::index(axis.a)];
   double least = kFarAway;
   for (const HullCorner& corner : polygon) least = std::min(least, axis.n.dot(corner.p) - level);
-  if (!polygon.empty() && (axis.separation <= 0 || least <= axis.separation + kHullOutside * reference.inradius)) {
-    const std::size_t step = (polygon.size() + kMostOfFace - 1) / kMostOfFace;
-    for (std::size_t i = 0; i < polygon.size(); i += step) {
-      const double gap = axis.n.dot(polygon[i].p) - level;
-      out.add(normal, polygon[i].p - 0.5 * gap * axis.n, gap, polygon[i].id ^ tag);
-    }
-    return;
-  }
+  if (!polygon.empty() && (axis.separation <= 0 || least <= axis.separation + kHullOutside * reference.inradius))
+    return add_corners(polygon, reference, axis, normal, tag, out);
   // Apart, and the deepest corner lies past the other's face: that corner stands for the pair.
   const Vec3& corner = incident.points[Placed::index(reference.deepest[Placed::index(axis.a)])];
   out.add(normal, corner - 0.5 * axis.separation * axis.n, axis.separation, tag);
 }
 
-void add_edges(const Placed& a, const Placed& b, const HullAxis& axis, Manifold& out) {
+ManifoldPoint edge_crossing(const Placed& a, const Placed& b, const HullAxis& axis) {
   const Hull::Edge &of_a = a.hull->edges[Placed::index(axis.a)], &of_b = b.hull->edges[Placed::index(axis.b)];
   const Vec3 u = a.edge(of_a), v = b.edge(of_b);
   const Vec3 &from_a = a.points[Placed::index(of_a.from)], &from_b = b.points[Placed::index(of_b.from)];
@@ -203,9 +213,18 @@ void add_edges(const Placed& a, const Placed& b, const HullAxis& axis, Manifold&
   const double s = std::clamp((vv * u.dot(line) - uv * v.dot(line)) / both, 0.0, 1.0),
                t = std::clamp((uv * u.dot(line) - uu * v.dot(line)) / both, 0.0, 1.0);
   const Vec3 point = 0.5 * (from_a + s * u + from_b + t * v);
-  out.add(
-      -axis.n, point, axis.separation,
-      hull_crossing(static_cast<std::uint32_t>(axis.a) + 0x40000u, static_cast<std::uint32_t>(axis.b) + 0x80000u, 0));
+  const std::uint32_t feature =
+      hull_crossing(static_cast<std::uint32_t>(axis.a) + 0x40000u, static_cast<std::uint32_t>(axis.b) + 0x80000u, 0);
+  return {-axis.n, point, axis.separation, feature, 0, 0};
+}
+
+bool add_nearly_flat(const Placed& reference, const Placed& incident, const HullAxis& face, const Vec3& normal,
+                     const ManifoldPoint& crossing, std::uint32_t tag, Manifold& out) {
+  if (normal.cross(crossing.normal).norm() > kNearlyFlat) return false;
+  const int first = out.size();
+  add_corners(clipped_face(reference, incident, face), reference, face, normal, tag, out);
+  const double size = std::min(reference.inradius, incident.inradius);
+  return put_crossing(crossing, kNearlyFlat * size + std::abs(crossing.gap), first, out);
 }
 
 void collide_placed(Placed& a, Placed& b, Manifold& out) {
@@ -213,7 +232,14 @@ void collide_placed(Placed& a, Placed& b, Manifold& out) {
   const HullAxis face_a = best_face_of(a, b), face_b = best_face_of(b, a);
   const double found = std::max(face_a.separation, face_b.separation);
   const HullAxis edges = best_edges_of(a, b, found);
-  if (edges.separation > found + preference) return add_edges(a, b, edges, out);
+  if (edges.separation > found + preference) {
+    const ManifoldPoint crossing = edge_crossing(a, b, edges);
+    const bool is_of_a = edges.n.dot(face_a.n) >= -edges.n.dot(face_b.n);
+    const bool is_flat = is_of_a ? add_nearly_flat(a, b, face_a, -face_a.n, crossing, 0x20000000, out)
+                                 : add_nearly_flat(b, a, face_b, face_b.n, crossing, 0x10000000, out);
+    if (!is_flat) out.add(crossing);
+    return;
+  }
   if (face_b.separation > face_a.separation + preference) return add_face(b, a, face_b, face_b.n, 0x10000000, out);
   add_face(a, b, face_a, -face_a.n, 0x20000000, out);
 }

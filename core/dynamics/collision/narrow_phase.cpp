@@ -180,6 +180,15 @@ struct Collide {
 
 }  // namespace
 
+bool put_crossing(const ManifoldPoint& crossing, double reach, int first, Manifold& out) {
+  ManifoldPoint* nearest = std::min_element(out.begin() + first, out.end(), [&](const auto& one, const auto& other) {
+    return (one.point - crossing.point).squaredNorm() < (other.point - crossing.point).squaredNorm();
+  });
+  if (nearest == out.end() || (nearest->point - crossing.point).norm() > reach) return out.keep(first), false;
+  nearest->normal = crossing.normal, nearest->point = crossing.point, nearest->gap = crossing.gap;
+  return true;
+}
+
 void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out) {
   out.clear();
   std::visit(Collide{a, b, pose_a, pose_b, out}, a, b);

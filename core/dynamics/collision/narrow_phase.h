@@ -51,6 +51,13 @@ class Manifold {
   int count_ = 0;
 };
 
+// Edges that cross over faces whose normals differ by less than this touch with all corners of these faces. With the
+// crossing alone, a body that lies between two others would turn about both crossings.
+inline constexpr double kNearlyFlat = 1e-2;  // rad
+// Puts the crossing in the place of the nearest of the points from `first` on, which keeps its feature. Without one
+// within `reach` [m] it removes these points and returns false.
+bool put_crossing(const ManifoldPoint& crossing, double reach, int first, Manifold& out);
+
 // Every point at which the shapes touch or come closest, however far apart they are. Two planes have none.
 void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out);
 

@@ -55,6 +55,42 @@ double separation_along(const Vec3& n, const Shape& a, const Pose& pose_a, const
 
 }  // namespace
 
+// Two plates lie across each other and overlap by 2 µm. The upper one is tilted by some µrad, so that a crossing of
+// edges separates them further than any face does. Corners of the square where they meet must stay contact points, with
+// the gap of the plane through the upper face; the crossing has the exact normal of its edges.
+BOOST_AUTO_TEST_CASE(plates_across_each_other_touch_at_four_corners_however_little_they_are_tilted) {
+  const Box lower{{0.4, 0.1, 0.04}}, upper{{0.1, 0.4, 0.04}};
+  int crossings = 0;
+  for (const double tilt : {1e-7, 1e-5, 1e-3, 5e-3}) {
+    for (const double share : {-1.0, 0.3, 1.0}) {
+      const Vec3 turn(tilt, share * tilt, 0);
+      const Mat3 R = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+      const Pose a{Vec3(0, 0, 0.04 - 2e-6), R}, b{};
+      for (const bool is_hull : {false, true}) {
+        Manifold points;
+        collide(is_hull ? Shape(hull_of_box(upper.size)) : Shape(upper), a, lower, b, points);
+        BOOST_TEST_CONTEXT(tilt << " rad, hull " << is_hull) {
+          BOOST_TEST_REQUIRE(points.size() == 4);
+          for (const ManifoldPoint& point : points) {
+            // The tilt moves the face by itself times half the plate's height, and kOutside is a share of 1e-6.
+            const double aside = 1.1 * tilt * 0.02 + 1e-6;
+            BOOST_TEST(std::abs(std::abs(point.point.x()) - 0.05) < aside);
+            BOOST_TEST(std::abs(std::abs(point.point.y()) - 0.05) < aside);
+            // Where the upper plate's face lies over the lower one's, along z; the normals differ by the tilt.
+            const Vec3 n = R.col(2), on_face = a.p - 0.02 * n;
+            const double z =
+                on_face.z() -
+                (n.x() * (point.point.x() - on_face.x()) + n.y() * (point.point.y() - on_face.y())) / n.z();
+            BOOST_TEST(std::abs(point.gap - (z - 0.02)) < 2 * tilt * (tilt * 0.2 + 2e-6) + 1e-15);
+            crossings += point.normal.cross(Vec3::UnitZ()).norm() > 0 && point.normal.cross(n).norm() > 1e-3 * tilt;
+          }
+        }
+      }
+    }
+  }
+  BOOST_TEST(crossings > 0);  // the case is there
+}
+
 // The same points of contact, whichever of the two algorithms finds them.
 BOOST_AUTO_TEST_CASE(a_box_and_its_hull_touch_alike) {
   PairRandom random(3);
