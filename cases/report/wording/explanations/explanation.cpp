@@ -9,6 +9,7 @@
 #include "cases/report/wording/cell_claim.h"
 #include "cases/report/wording/explanations/blow_up_explanation.h"
 #include "cases/report/wording/explanations/contact_explanation.h"
+#include "cases/report/wording/explanations/disagreement_explanation.h"
 #include "cases/report/wording/explanations/energy_explanation.h"
 #include "cases/report/wording/explanations/ensemble_explanation.h"
 #include "cases/report/wording/explanations/joint_explanation.h"
@@ -51,9 +52,10 @@ std::vector<Message> verdict_reasons(const Results& results, const CaseResult& r
 }  // namespace
 
 std::vector<Message> explanations(const Results& results, const CaseResult& result) {
-  std::vector<Message> all = blow_up_explanations(results, result);
-  const bool is_damper = std::any_of(all.begin(), all.end(), [](const Message& one) { return one.topic == "damper"; });
+  std::vector<Message> all = disagreement_explanations(results, result);
   const auto add = [&](std::vector<Message> more) { std::move(more.begin(), more.end(), std::back_inserter(all)); };
+  add(blow_up_explanations(results, result));
+  const bool is_damper = std::any_of(all.begin(), all.end(), [](const Message& one) { return one.topic == "damper"; });
   add(energy_explanations(results, result));
   if (!is_damper) add(shortened_searches(results, result));
   add(verdict_reasons(results, result));

@@ -703,6 +703,33 @@ std::optional<double> of_cell(const Results& results, const Claim& claim) {
   return {};
 }
 
+// Of the distances at this step between the first run of each engine. Runs that blew up are no part of them.
+std::optional<double> distance_of_runs(const Results& results, const CaseResult& one, const Claim& claim) {
+  std::map<std::string, std::string> first_of;  // by engine
+  std::map<std::pair<std::string, std::string>, double> all;
+  const auto stays = [&](std::size_t run) {
+    const Cell* cell = cell_of(results, {"", claim.of_case, results.runs[run].text, claim.dt});
+    return cell && !cell->metrics.empty() && !blown(*cell);
+  };
+  for (const Spread& spread : one.spreads) {
+    if (spread.dt.text != claim.dt || !stays(spread.first) || !stays(spread.second)) continue;
+    const std::string &a = results.runs[spread.first].text, &b = results.runs[spread.second].text;
+    all[{a, b}] = all[{b, a}] = spread.distance.value;
+  }
+  for (const RunName& run : results.runs) {
+    const bool is_there =
+        std::any_of(all.begin(), all.end(), [&](const auto& row) { return row.first.first == run.text; });
+    if (is_there) first_of.try_emplace(run.engine, run.text);
+  }
+  if (claim.quantity == "distance between runs") return all.at({claim.of_run, claim.part});
+  if (claim.quantity == "engines compared") return static_cast<double>(first_of.size());
+  if (claim.quantity != "distance of the nearest") return {};
+  double nearest = HUGE_VAL;
+  for (const auto& [engine, other] : first_of)
+    if (other != claim.of_run) nearest = std::min(nearest, all.at({claim.of_run, other}));
+  return nearest;
+}
+
 std::optional<double> of_case(const Results& results, const Claim& claim) {
   const CaseResult* one = case_of(results, claim.of_case);
   if (!one) return {};
@@ -713,6 +740,7 @@ std::optional<double> of_case(const Results& results, const Claim& claim) {
   }
   if (claim.quantity == "duration") return one->definition.duration;
   if (claim.quantity == "ensemble starts") return one->definition.ensemble;
+  if (const auto distance = distance_of_runs(results, *one, claim)) return distance;
   if (claim.quantity == "joints in a row") return joints_in_a_row_of(scene);
   if (claim.quantity == "mass ratio") return mass_ratio_of(scene);
   if (claim.quantity == "joint size") return joint_size(scene);

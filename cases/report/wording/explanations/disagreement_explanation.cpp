@@ -1,0 +1,155 @@
+#include "cases/report/wording/explanations/disagreement_explanation.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cases/report/wording/cell_claim.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kFarther = 10;      // than the median of the nearest distances
+constexpr double kBeyondOthers = 3;  // times the largest distance of the others
+
+class Disagreement {
+ public:
+  Disagreement(const Results& results, const CaseResult& result) : results_(results), result_(result) {
+    const Spread* finest = nullptr;
+    for (const Spread& spread : result.spreads) {
+      if (ran(spread) && (!finest || spread.dt.seconds < finest->dt.seconds)) finest = &spread;
+    }
+    if (!finest) return;
+    dt_ = finest->dt;
+    std::set<std::string> engines;
+    for (std::size_t run = 0; run < results.runs.size(); ++run) {
+      const bool is_compared = std::any_of(result.spreads.begin(), result.spreads.end(), [&](const Spread& spread) {
+        return spread.dt == dt_ && ran(spread) && (spread.first == run || spread.second == run);
+      });
+      if (is_compared && engines.insert(results.runs[run].engine).second) runs_.push_back(run);
+    }
+  }
+
+  std::vector<Message> messages() const {
+    if (runs_.size() < 2) return {};
+    const std::vector<std::size_t> apart = those_apart();
+    std::vector<std::size_t> others;
+    for (const std::size_t run : runs_) {
+      if (std::find(apart.begin(), apart.end(), run) == apart.end()) others.push_back(run);
+    }
+    Claims claims;
+    std::string text;
+    for (const std::size_t run : apart) {
+      const Spread& nearest = nearest_of(run);
+      text +=
+          fmt::format(" At dt = {} s {} stands apart: it is {} from the nearest other, {}{}.", dt_.text, name(run),
+                      claims.quantity(nearest_claim(run, nearest), "m"), name(other_of(nearest, run)), where(nearest));
+    }
+    const Spread& widest = widest_of(others);
+    const std::string distance = claims.quantity(claim_of(widest), "m");
+    if (apart.empty())
+      text +=
+          fmt::format(" At dt = {} s {} engines are up to {} apart: most {} and {}{}.", dt_.text,
+                      claims.count(count_claim()), distance, name(widest.first), name(widest.second), where(widest));
+    else
+      text += fmt::format(" The others are within {} of each other: {}.", distance, names(others));
+    return {{"disagreement", "No truth says who is right." + text, "", claims.take()}};
+  }
+
+ private:
+  // A run that blew up is told elsewhere.
+  bool ran(const Spread& spread) const {
+    const auto stays = [&](std::size_t run) {
+      return std::any_of(result_.cells.begin(), result_.cells.end(), [&](const Cell& cell) {
+        return cell.run == run && cell.dt == spread.dt && !cell.metrics.empty() &&
+               cell.stability.verdict != Verdict::blown_up;
+      });
+    };
+    return stays(spread.first) && stays(spread.second);
+  }
+
+  static std::size_t other_of(const Spread& spread, std::size_t run) {
+    return spread.first == run ? spread.second : spread.first;
+  }
+
+  // The spreads at dt_ among these runs.
+  std::vector<const Spread*> among(const std::vector<std::size_t>& runs) const {
+    const auto has = [&](std::size_t run) { return std::find(runs.begin(), runs.end(), run) != runs.end(); };
+    std::vector<const Spread*> found;
+    for (const Spread& spread : result_.spreads) {
+      if (spread.dt == dt_ && has(spread.first) && has(spread.second)) found.push_back(&spread);
+    }
+    return found;
+  }
+
+  const Spread& nearest_of(std::size_t run) const {
+    const Spread* nearest = nullptr;
+    for (const Spread* spread : among(runs_)) {
+      if (spread->first != run && spread->second != run) continue;
+      if (!nearest || spread->distance.value < nearest->distance.value) nearest = spread;
+    }
+    return *nearest;
+  }
+
+  const Spread& widest_of(const std::vector<std::size_t>& runs) const {
+    const auto pairs = among(runs);
+    return **std::max_element(pairs.begin(), pairs.end(),
+                              [](const Spread* a, const Spread* b) { return a->distance.value < b->distance.value; });
+  }
+
+  // Engines that are far from all others, but at least two are left to stand apart from.
+  std::vector<std::size_t> those_apart() const {
+    if (runs_.size() < 3) return {};
+    std::vector<double> nearest;
+    for (const std::size_t run : runs_) nearest.push_back(nearest_of(run).distance.value);
+    std::vector<double> sorted = nearest;
+    std::sort(sorted.begin(), sorted.end());
+    const double median = sorted[sorted.size() / 2];
+    std::vector<std::size_t> apart, others;
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      (nearest[k] > kFarther * median ? apart : others).push_back(runs_[k]);
+    if (others.size() < 2) return {};
+    const double spread = widest_of(others).distance.value;
+    std::erase_if(apart, [&](std::size_t run) { return !(nearest_of(run).distance.value > kBeyondOthers * spread); });
+    return apart;
+  }
+
+  const std::string& name(std::size_t run) const { return results_.runs[run].text; }
+  std::string names(const std::vector<std::size_t>& runs) const {
+    std::vector<std::string> all;
+    for (const std::size_t run : runs) all.push_back(name(run));
+    return fmt::format("{}", fmt::join(all, ", "));
+  }
+  std::string where(const Spread& spread) const {
+    const std::string body = result_.definition.scene.body_name(spread.distance.body);
+    return fmt::format(" ('{}', after {:.3g} s)", body, spread.distance.time);
+  }
+
+  Claim claim_of(const Spread& spread) const {
+    return {"distance between runs", result_.definition.id, name(spread.first), dt_.text,
+            name(spread.second),     spread.distance.value};
+  }
+  Claim nearest_claim(std::size_t run, const Spread& spread) const {
+    return {"distance of the nearest", result_.definition.id, name(run), dt_.text, "", spread.distance.value};
+  }
+  Claim count_claim() const {
+    return {"engines compared", result_.definition.id, "", dt_.text, "", static_cast<double>(runs_.size())};
+  }
+
+  const Results& results_;
+  const CaseResult& result_;
+  StepSize dt_{0, ""};
+  std::vector<std::size_t> runs_;  // the first of each engine
+};
+
+}  // namespace
+
+std::vector<Message> disagreement_explanations(const Results& results, const CaseResult& result) {
+  const bool has_truth = result.truth && result.definition.truth != "none";
+  if (has_truth || result.definition.ensemble > 0) return {};
+  return Disagreement(results, result).messages();
+}
+
+}  // namespace rigor
