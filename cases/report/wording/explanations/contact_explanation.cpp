@@ -78,11 +78,20 @@ std::string creep_text(const Results& results, const Diagnosis& found, const std
       name, claims.quantity(claim_of(results, found, dt, "creep", found.value), "m"), dt.text);
 }
 
+std::string hover_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  return fmt::format(
+      "Why: bodies of {} press on each other across a gap. The mean gap under load: {}. Friction that is solved "
+      "together "
+      "with the normal force lifts a sliding body by up to dt mu v. Take a smaller step.",
+      name, text_over_steps(results, found, "hover", "m", claims));
+}
+
 std::string text_of_topic(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
   if (found.topic == kOverlapGivenBack) return overlap_text(results, found, name, claims);
   if (found.topic == kUnconverged) return unconverged_text(results, found, name, claims);
   if (found.topic == kForceSpikes) return spikes_text(results, found, name, claims);
   if (found.topic == kCreeps) return creep_text(results, found, name, claims);
+  if (found.topic == kHovers) return hover_text(results, found, name, claims);
   return friction_text(results, found, name, claims);
 }
 

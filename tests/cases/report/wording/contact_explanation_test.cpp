@@ -101,6 +101,23 @@ BOOST_AUTO_TEST_CASE(a_body_that_moves_on_to_the_end_creeps) {
   BOOST_TEST(said_with(0.02, 0.01, 0.5).empty());  // it has settled
 }
 
+BOOST_AUTO_TEST_CASE(a_gap_under_load_that_falls_with_dt_is_told) {
+  const auto said_with = [](double coarse, double fine, double restitution) {
+    Results grid = with("hover", coarse, fine, {});
+    Scene& scene = grid.cases.front().definition.scene;
+    for (Body& body : scene.bodies) body.shape = Sphere{0.5};
+    scene.contact_default.restitution = restitution;
+    return said_of(grid);
+  };
+  const auto said = said_with(0.02, 0.002, 0);
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "The mean gap under load: 20 mm at dt = 1/10 s, 2 mm at 1/20 s"), said[0]);
+  BOOST_TEST(has(said[0], "Take a smaller step"));
+  BOOST_TEST(said_with(0.004, 0.0004, 0).empty());  // too little
+  BOOST_TEST(said_with(0.02, 0.019, 0).empty());    // it does not fall
+  BOOST_TEST(said_with(0.02, 0.002, 0.5).empty());  // a bounce leaves a gap
+}
+
 BOOST_AUTO_TEST_CASE(nothing_is_said_where_nothing_was_measured) { BOOST_TEST(said_of(sample_results()).empty()); }
 
 BOOST_AUTO_TEST_SUITE_END()
