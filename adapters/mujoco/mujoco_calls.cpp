@@ -26,9 +26,20 @@ std::vector<std::string> mujoco_calls(const Settings& settings, const std::strin
     calls.push_back(
         "for (int i = 0; i < m->ngeom; ++i) m->geom_solimp[mjNIMP*i] = m->geom_solimp[mjNIMP*i + 1] = 0.999;");
   }
-  if (is_named(settings, kMujocoContactTime))
-    calls.push_back(fmt::format("for (int i = 0; i < m->ngeom; ++i) m->geom_solref[mjNREF*i] = {};",
-                                number_option(settings, kMujocoContactTime)));
+  struct OfContacts {
+    const OptionInfo& option;
+    const char* place;
+  };
+  for (const auto& [option, place] : {OfContacts{kMujocoContactTime, "solref[mjNREF*i]"},
+                                      {kMujocoContactDamping, "solref[mjNREF*i + 1]"},
+                                      {kMujocoContactStart, "solimp[mjNIMP*i]"},
+                                      {kMujocoContactDeep, "solimp[mjNIMP*i + 1]"},
+                                      {kMujocoContactWidth, "solimp[mjNIMP*i + 2]"},
+                                      {kMujocoContactMargin, "margin[i]"}}) {
+    if (is_named(settings, option))
+      calls.push_back(
+          fmt::format("for (int i = 0; i < m->ngeom; ++i) m->geom_{} = {};", place, number_option(settings, option)));
+  }
   calls.push_back(fmt::format("m->opt.timestep = {}; mj_step(m, d);", dt));
   return calls;
 }

@@ -25,14 +25,15 @@ const Features kMujocoContacts = [] {
 }();
 
 std::vector<OptionInfo> options_of_all() {
-  return {kMujocoCone, kMujocoImpratio, kMujocoContactTime, kMujocoIterations};
+  return {kMujocoCone,        kMujocoImpratio,     kMujocoContactTime,   kMujocoContactDamping, kMujocoContactStart,
+          kMujocoContactDeep, kMujocoContactWidth, kMujocoContactMargin, kMujocoIterations};
 }
 
 MethodInfo euler() {
   return {.name = "euler",
           .summary = "semi-implicit Euler in the joints' coordinates, gyroscopic term explicit",
           .leapfrog_stagger = 0.5,
-          .lacks = {Feature::joint_limit_that_bounces},
+          .lacks = {Feature::joint_limit_that_bounces, Feature::restitution},
           .options = options_of_all()};
 }
 
@@ -40,7 +41,7 @@ MethodInfo implicit() {
   return {.name = "implicit",
           .summary = "the same with one Newton step for what depends on velocity: damps spinning bodies",
           .leapfrog_stagger = 0.5,
-          .lacks = {Feature::joint_limit_that_bounces},
+          .lacks = {Feature::joint_limit_that_bounces, Feature::restitution},
           .options = options_of_all()};
 }
 
@@ -49,7 +50,7 @@ MethodInfo rk4() {
   return {.name = "rk4",
           .summary = "Runge and Kutta's method; of order 2 in the orientation of a free body",
           .order = 2,
-          .lacks = {Feature::joint_limit_that_bounces},
+          .lacks = {Feature::joint_limit_that_bounces, Feature::restitution},
           .options = options_of_all()};
 }
 
@@ -67,6 +68,7 @@ EngineInfo MujocoEngine::info() const {
                                                Feature::fixed_body,
                                                Feature::friction_none,
                                                Feature::friction_coulomb,
+                                               Feature::restitution,
                                                Feature::rolling_friction,
                                                Feature::torsional_friction,
                                                joint_feature<BallJoint>(),
@@ -97,7 +99,7 @@ EngineInfo MujocoEngine::info() const {
 
 std::unique_ptr<World> MujocoEngine::load(const Scene& scene, const Settings& settings) const {
   const EngineInfo engine = info();
-  refuse_unsupported(engine, scene);
+  refuse_unsupported(engine, settings, scene);
   method_of(engine, settings);  // throws for a method that is not there
   return std::make_unique<MujocoWorld>(scene, settings);
 }

@@ -66,12 +66,28 @@ void stiffen_friction(mjModel& model, double dt) {
 // creep down slopes that should hold them. With 0.9999 the solver's line search sometimes fails.
 constexpr mjtNum kContactImpedance = 0.999;
 
-void set_impedance(mjtNum* solimp, int count) {
-  for (int i = 0; i < count; ++i) solimp[mjNIMP * i] = solimp[mjNIMP * i + 1] = kContactImpedance;
+// Writes `value` into the place `at` of each row, of `count` rows of a contact's parameters.
+void set_each(mjtNum* rows, int count, int length, int at, double value) {
+  for (int i = 0; i < count; ++i) rows[length * i + at] = value;
 }
 
-void set_time_constant(mjtNum* solref, int count, double time) {
-  for (int i = 0; i < count; ++i) solref[mjNREF * i] = time;
+// A named option changes the shipped contacts on either track.
+void set_contacts(mjModel& model, const Settings& settings) {
+  const auto set = [&](mjtNum* of_geoms, mjtNum* of_pairs, int length, int at, double value) {
+    set_each(of_geoms, model.ngeom, length, at, value), set_each(of_pairs, model.npair, length, at, value);
+  };
+  if (settings.track == Track::matched) {
+    for (const int at : {0, 1}) set(model.geom_solimp, model.pair_solimp, mjNIMP, at, kContactImpedance);
+  }
+  const auto set_if_named = [&](const OptionInfo& option, mjtNum* of_geoms, mjtNum* of_pairs, int length, int at) {
+    if (is_named(settings, option)) set(of_geoms, of_pairs, length, at, number_option(settings, option));
+  };
+  set_if_named(kMujocoContactTime, model.geom_solref, model.pair_solref, mjNREF, 0);
+  set_if_named(kMujocoContactDamping, model.geom_solref, model.pair_solref, mjNREF, 1);
+  set_if_named(kMujocoContactStart, model.geom_solimp, model.pair_solimp, mjNIMP, 0);
+  set_if_named(kMujocoContactDeep, model.geom_solimp, model.pair_solimp, mjNIMP, 1);
+  set_if_named(kMujocoContactWidth, model.geom_solimp, model.pair_solimp, mjNIMP, 2);
+  set_if_named(kMujocoContactMargin, model.geom_margin, model.pair_margin, 1, 0);
 }
 
 std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
@@ -92,15 +108,7 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
       is_jointed_(!scene.joints.empty()),
       said_(scene, tree_, settings.method) {
   if (!data_) throw std::runtime_error("MuJoCo has no memory for the scene's contacts and constraints");
-  if (matched_) {
-    set_impedance(made_.model->geom_solimp, made_.model->ngeom);
-    set_impedance(made_.model->pair_solimp, made_.model->npair);
-  }
-  if (is_named(settings, kMujocoContactTime)) {
-    const double time = number_option(settings, kMujocoContactTime);
-    set_time_constant(made_.model->geom_solref, made_.model->ngeom, time);
-    set_time_constant(made_.model->pair_solref, made_.model->npair, time);
-  }
+  set_contacts(*made_.model, settings);
   // Constants that follow from the inertias, worked out at the pose of t = 0, which the data then holds again.
   mj_setConst(made_.model.get(), data_.get());
   mj_resetData(made_.model.get(), data_.get());
@@ -266,7 +274,12 @@ SettingsInForce MujocoWorld::settings_in_force() const {
       {"springs", "tendons, evaluated at each stage"},
       {"timed forces and motors", "user forces, set before each step"},
   };
-  if (model.ngeom > 0) in_force.emplace_back("contacts", solref_in_words(model.geom_solref, model.geom_solimp));
+  if (model.ngeom > 0) {
+    in_force.emplace_back("contacts", solref_in_words(model.geom_solref, model.geom_solimp));
+    in_force.emplace_back("restitution", fmt::format("by the damping ratio {:g} of contacts", model.geom_solref[1]));
+    if (model.geom_margin[0] > 0)
+      in_force.emplace_back("contact margin", fmt::format("{:g} m: bodies rest that far apart", model.geom_margin[0]));
+  }
   const char* when = matched_ && stiff_dt_ == 0 ? " until the first step" : "";
   if (model.neq > 0) in_force.emplace_back("loops", solref_in_words(model.eq_solref, model.eq_solimp) + when);
   const int limited =

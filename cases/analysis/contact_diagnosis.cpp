@@ -1,5 +1,7 @@
 #include "cases/analysis/contact_diagnosis.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "cases/analysis/metric_over_steps.h"
@@ -82,6 +84,20 @@ std::optional<Diagnosis> creeping(const CaseResult& result, const MetricOverStep
                       stiffness.empty() ? how_it_corrects(*creep.cells.back()) : stiffness);
 }
 
+// A body that leaves again within the step of its impact has a gap, too: scenes that bounce are left out.
+std::optional<Diagnosis> hovering(const CaseResult& result, const MetricOverSteps& hover) {
+  constexpr double kNotable = 0.01, kFall = 0.5;  // of the smallest moving body; of the gap at the coarsest step
+  const Scene& scene = result.definition.scene;
+  if (hover.values.size() < 2 || any_law(scene, [](const ContactLaw& law) { return law.restitution > 0; }))
+    return std::nullopt;
+  double size = std::numeric_limits<double>::infinity();
+  for (const Body& body : scene.bodies)
+    if (body.shape && !body.fixed) size = std::min(size, bounding_radius(*body.shape));
+  const double coarse = hover.values.front()->value;
+  if (!(coarse >= kNotable * size) || hover.values.back()->value > kFall * coarse) return std::nullopt;
+  return diagnosis_of(kHovers, result, hover, 0, coarse, in_its_words(*hover.cells.front(), "contacts"));
+}
+
 }  // namespace
 
 std::vector<Diagnosis> contact_diagnoses(const CaseResult& result) {
@@ -97,6 +113,8 @@ std::vector<Diagnosis> contact_diagnoses(const CaseResult& result) {
     if (spikes) all.push_back(std::move(*spikes));
     auto creep = creeping(result, metric_over_steps(result, run, "creep"));
     if (creep) all.push_back(std::move(*creep));
+    auto hover = hovering(result, metric_over_steps(result, run, "hover"));
+    if (hover) all.push_back(std::move(*hover));
   }
   return all;
 }

@@ -1,5 +1,5 @@
 // Finds errors of contacts: restitution that does not converge, overlap returned as speed, friction that depends on the
-// direction, forces that grow as the step shrinks, and bodies that creep.
+// direction, forces that grow as the step shrinks, bodies that creep, and bodies that hover.
 #pragma once
 
 #include "cases/analysis/diagnosis.h"
@@ -16,6 +16,9 @@ inline constexpr const char* kFrictionDirections = "friction";
 inline constexpr const char* kForceSpikes = "force-spikes";
 // A body that should stand moves on to the end of the run. The value is its distance from its place [m].
 inline constexpr const char* kCreeps = "creep";
+// Bodies press on each other across a gap that falls with dt. The value is the mean gap under load at the coarsest step
+// [m].
+inline constexpr const char* kHovers = "hover";
 
 // One run and one topic in each, sorted by run.
 std::vector<Diagnosis> contact_diagnoses(const CaseResult& result);

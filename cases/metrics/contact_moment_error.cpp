@@ -1,4 +1,4 @@
-// Resultant moments of pairs against the truth (pair_wrenches.h).
+// Resultant moments of pairs against the truth, as far as the equations of motion determine them (equilibrium.h).
 //
 // contact_moment_error: the difference of the reported moment about the body's centre of mass from the one that the
 // truth's motion implies.
@@ -7,48 +7,23 @@
 // act. With the plane's normal n and its distance h = n·r from the centre of mass, M = r × F gives
 //   r_t = (n × M + h F_t) / (n·F).
 // It is the centre of pressure of Sardain and Bessonnet (Forces acting on a biped robot, IEEE Trans. SMC A 34, 2004).
-#include "cases/metrics/measures/contact/pair_wrenches.h"
-#include "cases/metrics/measures/measuring.h"
+#include "cases/metrics/measures/contact/pair_differences.h"
 
 namespace rigor {
 namespace {
 
-// The largest value that `of` finds among the pairs of each sample.
-template <typename Of>
-MetricResult largest_of_pairs(const JudgedRun& run, const char* component, const Of& of) {
-  if (const std::string why = why_no_wrenches(run); !why.empty()) return {{}, why};
-  const std::size_t count = samples_within(run, kTruthNeededPosition);
-  TimeSeries series;
-  series.add(0, {0, kWorld, component, 0, 0});
-  bool is_any = false;
-  for (std::size_t n = 1; n < count; ++n) {
-    const std::optional<PairWrenches> expected = true_pair_wrenches(run, n);
-    if (!expected) return {{}, kLoopOfContacts};
-    PairWrenches found = reported_pair_wrenches(run, n);
-    for (const auto& [pair, wrench] : *expected) found.try_emplace(pair);
-    double largest = 0;
-    Instant worst{run.trajectory.samples[n].time, kWorld, component, 0, 0};
-    for (const auto& [pair, wrench] : found) {
-      const auto due = expected->find(pair);
-      const std::optional<Instant> at = of(n, pair, wrench, due == expected->end() ? PairWrench{} : due->second);
-      if (!at) continue;
-      is_any = true;
-      if (at->found <= largest) continue;
-      largest = at->found, worst = *at;
-      worst.time = run.trajectory.samples[n].time, worst.body = pair.second;
-    }
-    series.add(largest, worst);
-  }
-  if (!is_any) return {{}, "no pair of bodies presses on a plane contact"};
-  return {std::move(series).finish(), ""};
+std::string why_no_moments(const JudgedRun& run) {
+  if (any_law(run.scene, [](const ContactLaw& law) { return law.resists_turning(); }))
+    return "rolling or torsional friction adds a couple, which engines do not report with their contact forces";
+  return why_no_pairs(run);
 }
 
 MetricResult measure_moment(const JudgedRun& run) {
-  return largest_of_pairs(
-      run, "moment",
-      [&](std::size_t, const BodyPair& pair, const PairWrench& found, const PairWrench& due) -> std::optional<Instant> {
-        return Instant{0, kWorld, "moment" + name_of(run.scene, pair).substr(5), (found.moment - due.moment).norm(), 0};
-      });
+  if (const std::string why = why_no_moments(run); !why.empty()) return {{}, why};
+  return largest_pair_difference(run, "moment", &DueWrench::moment_counts, [](const PairAtStep& at) {
+    const Vec3 found = at.due.moment_counts * at.found.moment, due = at.due.moment_counts * at.due.wrench.moment;
+    return std::optional(PairDifference{(found - due).norm(), found.norm(), due.norm()});
+  });
 }
 
 // A pair's plane: the mean normal of its points, towards the second body, and its distance from that body's centre.
@@ -68,10 +43,8 @@ std::optional<Plane3> plane_of(const JudgedRun& run, std::size_t n, const BodyPa
   Vec3 sum = Vec3::Zero();
   double force = 0;
   for (const ReportedContact& contact : run.trajectory.samples[n].contacts) {
-    const bool is_on_b = contact.b == pair.second, is_on_a = contact.a == pair.second;
-    const int other = is_on_b ? contact.a : contact.b;
-    const int end = run.scene.bodies[static_cast<std::size_t>(other)].fixed ? kWorld : other;
-    if (!(is_on_a || is_on_b) || end != pair.first) continue;
+    if (pair_of(run.scene, contact.a, contact.b) != pair) continue;
+    const bool is_on_b = contact.b == pair.second;
     const double pressing = contact.force.dot(contact.normal);
     if (!(pressing > 0)) continue;
     points.push_back({contact.point - centre, is_on_b ? contact.normal : Vec3(-contact.normal), pressing});
@@ -94,16 +67,17 @@ Vec3 centre_of_pressure(const PairWrench& wrench, const Plane3& plane) {
 }
 
 MetricResult measure_pressure(const JudgedRun& run) {
-  return largest_of_pairs(run, "centre of pressure",
-                          [&](std::size_t n, const BodyPair& pair, const PairWrench& found,
-                              const PairWrench& due) -> std::optional<Instant> {
-                            const std::optional<Plane3> plane = plane_of(run, n, pair);
-                            if (!plane || !(plane->normal.dot(found.force) > 0) || !(plane->normal.dot(due.force) > 0))
-                              return std::nullopt;
-                            return Instant{0, kWorld, "centre of pressure",
-                                           (centre_of_pressure(found, *plane) - centre_of_pressure(due, *plane)).norm(),
-                                           0};
-                          });
+  if (const std::string why = why_no_moments(run); !why.empty()) return {{}, why};
+  return largest_pair_difference(
+      run, "centre of pressure", &DueWrench::moment_counts, [&](const PairAtStep& at) -> std::optional<PairDifference> {
+        if (!counts_fully(at.due.force_counts) || !counts_fully(at.due.moment_counts)) return std::nullopt;
+        const std::optional<Plane3> plane = plane_of(run, at.n, at.pair);
+        const PairWrench& due = at.due.wrench;
+        if (!plane || !(plane->normal.dot(at.found.force) > 0) || !(plane->normal.dot(due.force) > 0))
+          return std::nullopt;
+        const double distance = (centre_of_pressure(at.found, *plane) - centre_of_pressure(due, *plane)).norm();
+        return PairDifference{distance, distance, 0};
+      });
 }
 
 }  // namespace

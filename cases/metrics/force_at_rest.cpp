@@ -3,19 +3,28 @@
 #include <cmath>
 
 #include "cases/metrics/measures/built_at_rest.h"
-#include "cases/metrics/measures/contact/pair_forces.h"
+#include "cases/metrics/measures/contact/true_wrenches.h"
 #include "cases/metrics/measures/measuring.h"
 
 namespace rigor {
 namespace {
 
-// The force of each pair at rest.
-std::optional<PairForces> forces_at_rest(const JudgedRun& run) {
-  const BodyColumns start = run.truth->bodies.front().columns();
-  std::optional<PairForces> forces =
-      pair_forces_of(touching_pairs(run.scene, start), forces_on_bodies(run.scene, start, start, 0, 1));
-  if (forces) std::erase_if(*forces, [](const auto& entry) { return entry.second.isZero(0); });
-  return forces;
+// The force of each pair at rest, where the equations of motion determine it and it is not zero.
+struct AtRest {
+  PairForces forces;
+  const char* note = "";
+};
+
+AtRest forces_at_rest(const JudgedRun& run) {
+  AtRest found;
+  for (const auto& [pair, due] : wrenches_at_rest(run.scene, run.truth->bodies.front().columns()).pairs) {
+    if (!counts_fully(due.force_counts)) {
+      found.note = " (other pairs are not determined)";
+    } else if (!due.wrench.force.isZero(0)) {
+      found.forces[pair] = due.wrench.force;
+    }
+  }
+  return found;
 }
 
 std::string why_none(const JudgedRun& run) {
@@ -25,21 +34,21 @@ std::string why_none(const JudgedRun& run) {
   return why_not_built_at_rest(run);
 }
 
-constexpr const char* kUndetermined = "the touching bodies form a loop, which leaves their forces undetermined";
+constexpr const char* kUndetermined = "statics determines no pair's force, or all are zero";
 
 MetricResult measure_peak(const JudgedRun& run) {
   if (const std::string why = why_none(run); !why.empty()) return {{}, why};
-  const std::optional<PairForces> due = forces_at_rest(run);
-  if (!due) return {{}, kUndetermined};
+  const auto [due, note] = forces_at_rest(run);
+  if (due.empty()) return {{}, kUndetermined};
   TimeSeries series;
   for (const Sample& sample : run.trajectory.samples) {
     double largest = 0;
     Instant worst{sample.time, kWorld, "force", 0, 0};
     for (const auto& [pair, force] : reported_pair_forces(run.scene, sample)) {
-      const auto rest = due->find(pair);
-      if (rest == due->end() || force.norm() / rest->second.norm() <= largest) continue;
+      const auto rest = due.find(pair);
+      if (rest == due.end() || force.norm() / rest->second.norm() <= largest) continue;
       largest = force.norm() / rest->second.norm();
-      worst = {sample.time, pair.second, name_of(run.scene, pair), force.norm(), rest->second.norm()};
+      worst = {sample.time, pair.second, name_of(run.scene, pair) + note, force.norm(), rest->second.norm()};
     }
     series.add(largest, worst);
   }
@@ -48,13 +57,13 @@ MetricResult measure_peak(const JudgedRun& run) {
 
 MetricResult measure_ripple(const JudgedRun& run) {
   if (const std::string why = why_none(run); !why.empty()) return {{}, why};
-  const std::optional<PairForces> due = forces_at_rest(run);
-  if (!due) return {{}, kUndetermined};
+  const auto [due, note] = forces_at_rest(run);
+  if (due.empty()) return {{}, kUndetermined};
   const std::vector<Sample>& samples = run.trajectory.samples;
   const std::size_t first = (samples.size() + 1) / 2;
   double largest = 0;
   Instant worst{samples.back().time, kWorld, "force", 0, 0};
-  for (const auto& [pair, rest] : *due) {
+  for (const auto& [pair, rest] : due) {
     double sum = 0, squares = 0;
     std::vector<double> sizes;
     for (std::size_t n = first; n < samples.size(); ++n) {
@@ -70,7 +79,7 @@ MetricResult measure_ripple(const JudgedRun& run) {
     const double ripple = mean > 0 ? deviation / mean : 1;
     if (ripple <= largest) continue;
     largest = ripple;
-    worst = {samples.back().time, pair.second, name_of(run.scene, pair), mean, rest.norm()};
+    worst = {samples.back().time, pair.second, name_of(run.scene, pair) + note, mean, rest.norm()};
   }
   TimeSeries series;
   series.add(largest, worst);

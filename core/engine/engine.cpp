@@ -41,6 +41,26 @@ std::string why_choice_fails(const std::string& engine, const OptionInfo& option
                                       : fmt::format("{} would do", fmt::join(would_do, " or ")));
 }
 
+// A number has no choices. Its features, under the choice "", are those of runs that name it.
+bool gives_if_named(const OptionInfo& option, Feature feature) {
+  const auto row = option.features_of_choice.find("");
+  return row != option.features_of_choice.end() && row->second.contains(feature);
+}
+
+// Returns "" if the method has the feature, or a named option gives it.
+std::string why_method_fails(const EngineInfo& engine, const Settings& settings, const MethodInfo& method,
+                             const Need& need) {
+  if (!method.lacks.contains(need.feature)) return "";
+  std::string would_do;
+  for (const OptionInfo& option : method.options) {
+    if (!gives_if_named(option, need.feature)) continue;
+    if (settings.options.contains(option.name)) return "";
+    would_do = fmt::format("; a run that names {} has it", option.name);
+  }
+  return fmt::format("{}:{} has no {}, which {} asks for; its method: {}{}", engine.name, method.name,
+                     word_of(need.feature), need.because, method.summary, would_do);
+}
+
 }  // namespace
 
 std::string why_unsupported(const EngineInfo& engine, const Scene& scene, double dt) {
@@ -67,12 +87,11 @@ std::string why_unsupported(const EngineInfo& engine, const Settings& settings, 
   std::vector<Need> asked = joint_traits_of(scene);
   asked.insert(asked.begin(), needs.begin(), needs.end());
   for (const Need& need : asked) {
-    if (method.lacks.contains(need.feature))
-      return fmt::format("{}:{} has no {}, which {} asks for; its method: {}", engine.name, method.name,
-                         word_of(need.feature), need.because, method.summary);
+    const std::string method_fails = why_method_fails(engine, settings, method, need);
+    if (!method_fails.empty()) return method_fails;
   }
   for (const OptionInfo& option : method.options) {
-    if (option.features_of_choice.empty()) continue;
+    if (option.features_of_choice.empty() || option.choices.empty()) continue;
     const std::string choice_fails = why_choice_fails(engine.name, option, settings, needs);
     if (!choice_fails.empty()) return choice_fails;
   }

@@ -4,13 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 
+#include "adapters/mujoco/mujoco_calls.h"
 #include "adapters/mujoco/mujoco_library.h"
 #include "core/engine/engine_failure.h"
+#include "core/engine/run_name.h"
 #include "tests/adapters/free_body_measures.h"
 #include "tests/adapters/hung_rods.h"
 
@@ -214,7 +217,13 @@ BOOST_AUTO_TEST_CASE(what_it_cannot_say_is_refused) {
   chain.bodies.pop_back(), chain.joints.pop_back();
   BOOST_CHECK_NO_THROW(load_run("mujoco", chain));
   const EngineInfo info = MujocoEngine().info();
-  BOOST_TEST(!info.features.contains(Feature::restitution));
+  Scene bouncing = sliding_box(0, 0, 0);
+  bouncing.contact_default.restitution = 0.5;
+  const std::string why = why_unsupported(info, parse_run_name("mujoco", {info}).settings, bouncing, 0.01);
+  BOOST_TEST(why.find("no restitution") != std::string::npos, why);
+  BOOST_TEST(why.find("a run that names contact-damping has it") != std::string::npos, why);
+  const RunName named = parse_run_name("mujoco,contact-damping=0.1", {info});
+  BOOST_TEST(why_unsupported(info, named.settings, bouncing, 0.01) == "");
   BOOST_TEST(!info.features.contains(Feature::friction_infinite));
 }
 
@@ -227,6 +236,81 @@ BOOST_AUTO_TEST_CASE(settings_are_read_back) {
   const auto stock = load_run("mujoco@stock", scene)->settings_in_force();
   BOOST_TEST(setting(stock, "friction cone").starts_with("pyramidal"));
   BOOST_TEST(setting(stock, "contacts") == "solref 0.02 1, solimp 0.9 0.95 0.001");
+}
+
+// The options of contacts: each is read back, and has the effect that its row promises.
+namespace {
+
+Scene ball(double height) {
+  Scene scene = sliding_box(0, 0, 0);
+  Body& body = scene.bodies[0];
+  body.shape = Sphere{0.1}, body.inertia = inertia_of(*body.shape, body.mass), body.position.z() = 0.1 + height;
+  return scene;
+}
+
+// The ball's state after a time, at 1/4000 s.
+BodyState after(const std::string& run, const Scene& scene, double time) {
+  const auto world = load_run(run, scene);
+  for (int i = 0; i < static_cast<int>(std::lround(4000 * time)); ++i) world->step(1.0 / 4000);
+  Snapshot found;
+  world->read(found);
+  return found.bodies().body(0);
+}
+
+double sunk_by(const std::string& run) { return 0.1 - after(run, ball(0), 2).position.z(); }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(named_options_are_in_force_on_both_tracks_and_others_stay) {
+  const std::string all =
+      "mujoco,contact-d0=0.5,contact-damping=0.3,contact-dmax=0.8,contact-margin=0.01,contact-time=0.03,contact-width="
+      "0.002";
+  for (const char* track : {"", "@stock"}) {
+    const auto found = load_run(all + track, ball(1))->settings_in_force();
+    BOOST_TEST(setting(found, "contacts") == "solref 0.03 0.3, solimp 0.5 0.8 0.002");
+    BOOST_TEST(setting(found, "contact margin") == "0.01 m: bodies rest that far apart");
+  }
+  const auto one = load_run("mujoco,contact-damping=0.3@stock", ball(1))->settings_in_force();
+  BOOST_TEST(setting(one, "contacts") == "solref 0.02 0.3, solimp 0.9 0.95 0.001");
+  BOOST_TEST(setting(one, "contact margin").empty());
+}
+
+// The impact of 4.43 m/s is over by 0.6 s. A contact of critical damping returns almost nothing.
+BOOST_AUTO_TEST_CASE(a_contact_below_critical_damping_bounces) {
+  const double critical = after("mujoco", ball(1), 0.6).velocity.z(),
+               lively = after("mujoco,contact-damping=0.1", ball(1), 0.6).velocity.z();
+  BOOST_TEST(critical < 0.5);
+  BOOST_TEST(lively > 1.5);
+}
+
+// At rest (1 - d) g = d k r, with the impedance d and the stiffness k = d / (dmax time damping)².
+BOOST_AUTO_TEST_CASE(the_impedance_decides_how_deep_a_body_rests) {
+  const double stiff = sunk_by("mujoco"), soft = sunk_by("mujoco,contact-d0=0.5,contact-dmax=0.5");
+  const auto due = [](double d, double dmax) { return (1 - d) / (d * d) * 9.81 * std::pow(dmax * 0.02, 2); };
+  BOOST_TEST(std::abs(stiff - due(0.999, 0.999)) < 0.01 * stiff);
+  BOOST_TEST(std::abs(soft - due(0.5, 0.5)) < 0.01 * soft);
+  // From d0 = 0.5 the impedance rises to dmax = 0.999 at the width. A ball that sinks through the width rests on the
+  // latter; with a wide one it stays near the former.
+  const double narrow = sunk_by("mujoco,contact-d0=0.5,contact-width=1e-6"),
+               wide = sunk_by("mujoco,contact-d0=0.5,contact-width=0.1");
+  BOOST_TEST(std::abs(narrow - stiff) < 0.01 * stiff);
+  BOOST_TEST(std::abs(wide - due(0.5, 0.999)) < 0.05 * wide);
+}
+
+BOOST_AUTO_TEST_CASE(a_margin_holds_bodies_apart) {
+  BOOST_TEST(std::abs(sunk_by("mujoco,contact-margin=0.01") - sunk_by("mujoco") + 0.01) < 1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(the_calls_of_a_run_set_the_same) {
+  Settings settings;
+  settings.method = "euler";
+  settings.options = {{"contact-damping", "0.3"}, {"contact-margin", "0.01"}};
+  const std::vector<std::string> calls = mujoco_calls(settings, "0.001");
+  for (const std::string call : {"m->geom_solref[mjNREF*i + 1] = 0.3;", "m->geom_margin[i] = 0.01;"}) {
+    const bool is_there = std::any_of(calls.begin(), calls.end(),
+                                      [&](const std::string& line) { return line.find(call) != std::string::npos; });
+    BOOST_TEST(is_there, call);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

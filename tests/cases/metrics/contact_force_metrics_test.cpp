@@ -2,18 +2,19 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "cases/metrics/measures/contact/pair_forces.h"
 #include "cases/metrics/measures/contact/pair_wrenches.h"
-#include "core/dynamics/model/system.h"
+#include "tests/cases/metrics/standing_run.h"
 #include "tests/cases/truth/closed_form/contact/contact_scenes.h"
 
 using namespace rigor;
 
 BOOST_AUTO_TEST_SUITE(cases_metrics_contact_force_metrics)
 
+using test::result_of, test::standing, test::value_of;
+
 namespace {
 
-constexpr double kDt = 0.01, kWeight = 20;  // s, N
+constexpr double kDt = test::kStandingDt, kWeight = 20;  // s, N
 constexpr int kBall = 0, kGround = 1;
 
 Scene ball_on_ground(double friction) {
@@ -24,37 +25,7 @@ Scene ball_on_ground(double friction) {
   return scene;
 }
 
-// The scene stands still, and each step reports what `report` says of it.
-Trajectory standing(const Scene& scene, int steps, const std::function<std::vector<ReportedContact>(int)>& report) {
-  Trajectory run{kDt, {}, true};
-  BodyTable table(scene.bodies.size());
-  set_initial_state(scene, table.columns());
-  for (int n = 0; n <= steps; ++n)
-    run.samples.push_back(
-        {n * kDt, KeptBodies(std::as_const(table).columns()), {}, n > 0 ? report(n) : std::vector<ReportedContact>()});
-  return run;
-}
-
 ReportedContact under_ball(const Vec3& force) { return {kGround, kBall, Vec3::Zero(), Vec3::UnitZ(), 0, force}; }
-
-TruthSamples same_as(const Trajectory& run) {
-  TruthSamples truth;
-  for (const Sample& sample : run.samples) truth.bodies.push_back(sample.bodies);
-  truth.error.assign(run.samples.size(), 0.0);
-  truth.largest_kinetic_energy = 1;
-  return truth;
-}
-
-MetricResult result_of(const std::string& metric, const Scene& scene, const Trajectory& run) {
-  const TruthSamples truth = same_as(run);
-  return test::measured(metric, {scene, run, &truth, 0});
-}
-
-double value_of(const std::string& metric, const Scene& scene, const Trajectory& run) {
-  const MetricResult result = result_of(metric, scene, run);
-  BOOST_TEST_REQUIRE(result.measurement.has_value(), metric << ": " << result.not_applicable);
-  return result.measurement->value;
-}
 
 }  // namespace
 
@@ -110,19 +81,6 @@ BOOST_AUTO_TEST_CASE(ripple_is_the_deviation_over_the_mean_of_the_second_half) {
   });
   BOOST_TEST(std::abs(value_of("force_ripple", scene, run) - 0.05) < 1e-12);
   BOOST_TEST(std::abs(value_of("force_peak", scene, run) - 25) < 1e-12);
-}
-
-BOOST_AUTO_TEST_CASE(the_sums_on_bodies_give_the_forces_of_a_tree_and_not_those_of_a_loop) {
-  const Vec3 up = Vec3::UnitZ();
-  // A stack of three, the lowest last, with weights of 1, 2 and 4 N.
-  const std::vector<Vec3> sums = {1 * up, 2 * up, 4 * up};
-  const auto stack = pair_forces_of({{0, 1}, {1, 2}, {kWorld, 2}}, sums);
-  BOOST_TEST_REQUIRE(stack.has_value());
-  BOOST_TEST((stack->at({0, 1}) + up).norm() == 0);  // the second is pressed down with 1 N
-  BOOST_TEST((stack->at({1, 2}) + 3 * up).norm() == 0);
-  BOOST_TEST((stack->at({kWorld, 2}) - 7 * up).norm() == 0);
-  BOOST_TEST(!pair_forces_of({{0, 1}, {kWorld, 0}, {kWorld, 1}}, sums).has_value());
-  BOOST_TEST(pair_forces_of({}, sums)->empty());
 }
 
 BOOST_AUTO_TEST_CASE(forces_on_bodies_are_what_loads_do_not_explain) {

@@ -129,7 +129,10 @@ serve({
       return [...x, ...data.xquat.subarray(4 * ids[i], 4 * ids[i] + 4), ...u.slice(3), ...u.slice(0, 3)];
     };
     return {
-      settings: { integrator: kIntegrators[method], cone: track === "matched" ? "elliptic" : "as shipped" },
+      settings: {
+        integrator: kIntegrators[method], cone: track === "matched" ? "elliptic" : "as shipped",
+        impratio: `${model.opt.impratio}: friction is that much stiffer than contact`,
+      },
       step(dt, wrenches) {
         const before = data.time;
         model.opt.timestep = dt;

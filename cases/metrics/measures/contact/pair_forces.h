@@ -1,9 +1,8 @@
-// Contact forces as resultants of pairs: those that an engine reports, and those that the truth's motion implies. A
-// single point's force is indeterminate where two bodies touch at more than three points, and resultants are not.
+// Contact forces as resultants of pairs: those that an engine reports, and the sums that a motion implies. A single
+// point's force is indeterminate where two bodies touch at more than three points, and resultants often are not.
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -11,9 +10,11 @@
 
 namespace rigor {
 
-// All fixed bodies count as one, kWorld: how they share the load of a body is indeterminate.
-using BodyPair = std::pair<int, int>;         // first < second
+// A fixed body comes first, else the lower index. The second body moves.
+using BodyPair = std::pair<int, int>;
 using PairForces = std::map<BodyPair, Vec3>;  // N on the second, in W, as a mean over the step
+
+BodyPair pair_of(const Scene& scene, int a, int b);
 
 PairForces reported_pair_forces(const Scene& scene, const Sample& sample);
 
@@ -21,18 +22,8 @@ PairForces reported_pair_forces(const Scene& scene, const Sample& sample);
 // the sum of its contact forces in a scene without springs and joints.
 std::vector<Vec3> forces_on_bodies(const Scene& scene, BodyColumns before, BodyColumns after, double t, double dt);
 
-// The forces of touching pairs from the sums on the bodies. Empty if the pairs close a loop, for these sums then leave
-// the forces undetermined. `touching` has pairs of moving bodies, and of kWorld with moving bodies.
-std::optional<PairForces> pair_forces_of(const std::vector<BodyPair>& touching, std::vector<Vec3> on_bodies);
-
-// Pairs whose surfaces are no farther apart than rounding, by the judge's own geometry.
-std::vector<BodyPair> touching_pairs(const Scene& scene, BodyColumns bodies);
-
 // Why a run has no contact forces to judge; empty if it has.
 std::string why_no_contacts(const JudgedRun& run);
-
-// What the truth's motion implies for the step that ends with sample n; empty if it is undetermined.
-std::optional<PairForces> true_pair_forces(const JudgedRun& run, std::size_t n);
 
 // "force of 'a' on 'b'"
 std::string name_of(const Scene& scene, const BodyPair& pair);

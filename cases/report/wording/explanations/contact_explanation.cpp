@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rigor {
@@ -44,16 +45,45 @@ std::string friction_text(const Results& results, const Diagnosis& found, const 
                       "m"));
 }
 
+// Whether the excess of the force times dt, an impulse, is about the same at the two finest steps.
+bool has_the_impulse_of_a_recovery(const Diagnosis& found) {
+  constexpr double kAlike = 2;
+  if (found.over.size() < 2) return false;
+  const auto impulse = [](const std::pair<StepSize, double>& at) { return (at.second - 1) * at.first.seconds; };
+  const double coarse = impulse(found.over[found.over.size() - 2]), fine = impulse(found.over.back());
+  return coarse > 0 && fine > 0 && std::max(coarse, fine) <= kAlike * std::min(coarse, fine);
+}
+
 std::string spikes_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
-  return fmt::format("Why: the contact force of {} at rest grows as dt falls. The largest, over that of rest: {}.",
-                     name, text_over_steps(results, found, "force_peak", "", claims));
+  const StepSize& dt = step_of_value(found);
+  const std::string text = fmt::format(
+      "Why: the contact force of {} at rest grows as dt falls. The largest, over that of rest: {}. At dt = {} s it is "
+      "{} in place of {}.",
+      name, text_over_steps(results, found, "force_peak", "", claims), dt.text,
+      claims.quantity(claim_of(results, found, dt, "worst found of force_peak", found.worst.found), "N"),
+      claims.quantity(claim_of(results, found, dt, "worst expected of force_peak", found.worst.expected), "N"));
+  if (!has_the_impulse_of_a_recovery(found)) return text;
+  return text +
+         " Its impulse hardly depends on dt, as of an overlap that is pushed out within one step. Correct less of an "
+         "overlap in a step, or limit its speed.";
 }
 
 std::string creep_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
   const StepSize& dt = found.over.back().first;
   return fmt::format(
-      "Why: the friction of {} holds no body at rest. At the end a body is {} from its place, at dt = {} s.", name,
-      claims.quantity(claim_of(results, found, dt, "creep", found.value), "m"), dt.text);
+      "Why: the friction of {} holds no body at rest. At the end a body is {} from its place, at dt = {} s. Friction "
+      "that is regularised gives way at a steady speed, however hard the bodies press. Make friction stiffer, or take "
+      "a "
+      "solver without regularisation.",
+      name, claims.quantity(claim_of(results, found, dt, "creep", found.value), "m"), dt.text);
+}
+
+std::string hover_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  return fmt::format(
+      "Why: bodies of {} press on each other across a gap. The mean gap under load: {}. Friction that is solved "
+      "together "
+      "with the normal force lifts a sliding body by up to dt mu v. Take a smaller step.",
+      name, text_over_steps(results, found, "hover", "m", claims));
 }
 
 std::string text_of_topic(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
@@ -61,6 +91,7 @@ std::string text_of_topic(const Results& results, const Diagnosis& found, const 
   if (found.topic == kUnconverged) return unconverged_text(results, found, name, claims);
   if (found.topic == kForceSpikes) return spikes_text(results, found, name, claims);
   if (found.topic == kCreeps) return creep_text(results, found, name, claims);
+  if (found.topic == kHovers) return hover_text(results, found, name, claims);
   return friction_text(results, found, name, claims);
 }
 

@@ -98,6 +98,8 @@ std::optional<Finding> contact_forces_finding(const Results& results, const std:
     return fmt::format("{} at dt = {} s", claims.quantity(claim_of(results, worst, dt, "creep", worst.value), "m"),
                        dt.text);
   });
+  add(kHovers, "Bodies press across a gap that falls with dt",
+      [&](const Diagnosis& worst) { return text_over_steps(results, worst, "hover", "m", claims); });
   if (finding.text.empty()) return std::nullopt;
   finding.claims = claims.take();
   return finding;

@@ -72,7 +72,13 @@ BOOST_AUTO_TEST_CASE(forces_that_grow_as_dt_falls_are_spikes) {
   BOOST_REQUIRE(said.size() == 1);
   BOOST_TEST(has(said[0], "grows as dt falls"));
   BOOST_TEST(has(said[0], "1.2 at dt = 1/10 s, 9 at 1/20 s"));
+  BOOST_TEST(has(said[0], "At dt = 1/20 s it is 90 N in place of 10 N"));
+  BOOST_TEST(!has(said[0], "Its impulse hardly depends on dt"));  // 0.02 and 0.4 of the force at rest times a second
   BOOST_TEST(has(said[0], "0.2 of it"));
+  const auto recovery = said_of(with("force_peak", 5, 9, spike));  // 0.4 at both steps
+  BOOST_REQUIRE(recovery.size() == 1);
+  BOOST_TEST(has(recovery[0], "Its impulse hardly depends on dt"));
+  BOOST_TEST(has(recovery[0], "Correct less of an overlap in a step"));
   BOOST_TEST(said_of(with("force_peak", 9, 1.2, spike)).empty());    // it falls
   BOOST_TEST(said_of(with("force_peak", 1.2, 1.9, spike)).empty());  // too little to say
   BOOST_TEST(said_of(with("force_peak", 8, 9, spike)).empty());      // it does not grow with 1/dt
@@ -90,8 +96,26 @@ BOOST_AUTO_TEST_CASE(a_body_that_moves_on_to_the_end_creeps) {
   const auto said = said_with(0.02, 0.01, 1);
   BOOST_REQUIRE(said.size() == 1);
   BOOST_TEST(has(said[0], "10 mm from its place, at dt = 1/20 s"), said[0]);
+  BOOST_TEST(has(said[0], "Make friction stiffer"));
   BOOST_TEST(said_with(0.02, 1e-4, 1).empty());    // too little, at the finest step
   BOOST_TEST(said_with(0.02, 0.01, 0.5).empty());  // it has settled
+}
+
+BOOST_AUTO_TEST_CASE(a_gap_under_load_that_falls_with_dt_is_told) {
+  const auto said_with = [](double coarse, double fine, double restitution) {
+    Results grid = with("hover", coarse, fine, {});
+    Scene& scene = grid.cases.front().definition.scene;
+    for (Body& body : scene.bodies) body.shape = Sphere{0.5};
+    scene.contact_default.restitution = restitution;
+    return said_of(grid);
+  };
+  const auto said = said_with(0.02, 0.002, 0);
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "The mean gap under load: 20 mm at dt = 1/10 s, 2 mm at 1/20 s"), said[0]);
+  BOOST_TEST(has(said[0], "Take a smaller step"));
+  BOOST_TEST(said_with(0.004, 0.0004, 0).empty());  // too little
+  BOOST_TEST(said_with(0.02, 0.019, 0).empty());    // it does not fall
+  BOOST_TEST(said_with(0.02, 0.002, 0.5).empty());  // a bounce leaves a gap
 }
 
 BOOST_AUTO_TEST_CASE(nothing_is_said_where_nothing_was_measured) { BOOST_TEST(said_of(sample_results()).empty()); }
