@@ -41,6 +41,7 @@ function rowOf(context, run, tolerance) {
 }
 
 export function repairs(context, tolerance) {
+  if (context.one.truth.kind === "none") return el("p.fine", {}, "No error is known here, so nothing can be said to reduce it.");
   const rows = context.shown.filter((run) => !run.core).map((run) => rowOf(context, run, tolerance)).filter(Boolean);
   return rows.length ? rows : el("p.fine", {}, "Nothing to repair: every engine shown is within the tolerance.");
 }
@@ -50,7 +51,7 @@ export function commands({ one, dt, shown }, tolerance) {
   const chosen = shown.map((e) => ` --engine '${e.name}'`).join("").replaceAll(/'([\w:@,=.-]+)'/g, "$1");
   const rows = [
     ["Run it again", `rigor run ${one.id} --dt ${dt.text}${chosen}`],
-    first ? ["Find the cheapest setting", `rigor tune ${one.id} --engine ${first.split(/[:@,]/)[0]} --within ${Number((1000 * tolerance).toPrecision(3))}mm`] : null,
+    first && one.truth.kind !== "none" ? ["Find the cheapest setting", `rigor tune ${one.id} --engine ${first.split(/[:@,]/)[0]} --within ${Number((1000 * tolerance).toPrecision(3))}mm`] : null,
     first ? ["Keep its motion", `rigor trace ${one.id} --engine ${first} --dt ${dt.text} > run.csv`] : null,
   ].filter(Boolean);
   return el("dl.commands", {}, rows.map(([label, command]) => [el("dt", {}, label), el("dd", {}, el("code", {}, command), copied(command))]));
