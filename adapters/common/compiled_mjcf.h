@@ -20,9 +20,9 @@ struct MjcfSource {
 
 struct CompiledMjcf {
   std::string parser;  // "MuJoCo 3.14.0"
-  // The arrays of mjModel by their names, and the option's as "opt_gravity". Of the state to start from: xpos, xquat,
-  // xanchor and xaxis (of each joint), velocity (of each body's origin: angular, then linear), all in W; qpos, ctrl,
-  // act.
+  // The arrays of mjModel by their names, and the option's as "opt_gravity". The state to start from has the arrays
+  // xpos, xquat, xanchor, xaxis, qpos, ctrl and act of mjData, and "velocity": of each body's origin in W, angular,
+  // then linear.
   std::map<std::string, std::vector<double>> numbers;
   std::map<std::string, std::vector<std::string>> names;  // "body", "joint", "geom", …; "" without a name
   std::set<std::string> off;                              // what <flag> switches off: "contact", "limit", …

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "adapters/mjcf/mjcf_import.h"
 #include "core/base/error.h"
 
@@ -64,18 +66,29 @@ bool has_edges(const Shape& shape) {
   return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Box>(shape);
 }
 
+double margin_of(const MjcfImport& import, int geom) {
+  return import.value("geom_margin", geom) - import.value("geom_gap", geom);
+}
+
+bool collides(const MjcfImport& import, int geom) {
+  return import.whole("geom_contype", geom) != 0 || import.whole("geom_conaffinity", geom) != 0;
+}
+
+// Whether all geoms that collide have one margin.
+bool has_one_margin(const MjcfImport& import) {
+  std::set<double> margins;
+  for (int geom = 0; geom < import.count("geom_type"); ++geom)
+    if (collides(import, geom)) margins.insert(margin_of(import, geom));
+  return margins.size() <= 1;
+}
+
 // Contacts of a pair act where its gap is below its margin, as if the margin were the surface. Two round or flat shapes
 // that are larger by their shares touch at the same points.
-void grow_by_margin(MjcfImport& import, int geom, LinkShape& shape) {
-  const auto margin = [&](int k) { return import.value("geom_margin", k) - import.value("geom_gap", k); };
-  const double own = margin(geom);
-  bool all_alike = true;
-  for (int k = 0; k < import.count("geom_type"); ++k) {
-    const bool collides = import.whole("geom_contype", k) != 0 || import.whole("geom_conaffinity", k) != 0;
-    if (collides && margin(k) != own) all_alike = false;
-  }
-  if (own <= 0 && (all_alike || import.m.adds_margins)) return;
-  if (!all_alike && !import.m.adds_margins) {
+void grow_by_margin(MjcfImport& import, int geom, bool all_alike, LinkShape& shape) {
+  const double own = margin_of(import, geom);
+  const bool is_own_share = all_alike || import.m.adds_margins;
+  if (own <= 0 && is_own_share) return;
+  if (!is_own_share) {
     const std::string why = fmt::format("{} takes the larger of two, and those of this model differ", import.m.parser);
     return import.lose("geom", geom, "a margin", why);
   }
@@ -88,11 +101,11 @@ void grow_by_margin(MjcfImport& import, int geom, LinkShape& shape) {
       assumed(fmt::format("the shape is larger by {:g} m, as {} reads the file{}", share, import.m.parser, edges)));
 }
 
-void read_geom(MjcfImport& import, int geom) {
+void read_geom(MjcfImport& import, int geom, bool all_alike) {
   const std::string where = import.at("geom", geom);
   const auto type = static_cast<unsigned>(import.whole("geom_contype", geom)),
              affinity = static_cast<unsigned>(import.whole("geom_conaffinity", geom));
-  if (type == 0 && affinity == 0) return import.model.left_out.add(where, "a geom", no_motion("is only drawn"));
+  if (!collides(import, geom)) return import.model.left_out.add(where, "a geom", no_motion("is only drawn"));
   const int body = import.whole("geom_bodyid", geom);
   const BodyPose pose =
       import.pose_of(body) * BodyPose{import.vector("geom_pos", geom), import.turn("geom_quat", geom)};
@@ -102,7 +115,7 @@ void read_geom(MjcfImport& import, int geom) {
   LinkShape out{*shape, pose, {.friction = friction(0)}, type, affinity, where};
   out.surface.torsional_friction = friction(1), out.surface.rolling_friction = friction(2);
   out.dimensions = import.whole("geom_condim", geom), out.priority = import.whole("geom_priority", geom);
-  grow_by_margin(import, geom, out);
+  grow_by_margin(import, geom, all_alike, out);
   if (body > 0) {
     import.model.links[MjcfImport::link_of(body)].shapes.push_back(out);
     return;
@@ -116,7 +129,8 @@ void read_geom(MjcfImport& import, int geom) {
 }  // namespace
 
 void read_mjcf_geoms(MjcfImport& import) {
-  for (int geom = 0; geom < import.count("geom_type"); ++geom) read_geom(import, geom);
+  const bool all_alike = has_one_margin(import);
+  for (int geom = 0; geom < import.count("geom_type"); ++geom) read_geom(import, geom, all_alike);
 }
 
 }  // namespace rigor

@@ -100,4 +100,12 @@ MjcfLoop mjcf_loop(const Joint& joint) {
       joint.type);
 }
 
+double mjcf_frictionloss(const Scene& scene, int joint) {
+  double most = 0;
+  for (const Motor& motor : scene.motors) {
+    if (motor.joint == joint && motor.is_friction) most += motor.most;
+  }
+  return most;
+}
+
 }  // namespace rigor

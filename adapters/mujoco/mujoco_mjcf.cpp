@@ -363,14 +363,6 @@ std::string mjcf_geom_name(int body, int part) {
 
 std::string mjcf_shape(const Shape& shape, const std::string& mesh) { return std::visit(GeomOf{mesh}, shape); }
 
-double mjcf_frictionloss(const Scene& scene, int joint) {
-  double most = 0;
-  for (const Motor& motor : scene.motors) {
-    if (motor.joint == joint && motor.is_friction) most += motor.most;
-  }
-  return most;
-}
-
 std::string mjcf_pose(const BodyPose& pose) {
   return fmt::format(R"( pos="{}" quat="{}")", text_of(pose.position), text_of(pose.orientation));
 }

@@ -113,8 +113,8 @@ Polygon facing(const BoxInSpace& box, const Vec3& n) {
   return face;
 }
 
-// The corners of the incident face over the reference face, with their gaps along `outward`, which looks from the
-// reference box to the incident one; `n` from b to a.
+// The corners of the incident face over the reference face, with their gaps along `outward`. It looks from the
+// reference box to the incident one.
 struct FaceCorners {
   Polygon face;
   std::array<double, 12> gaps;
@@ -137,6 +137,7 @@ struct FaceCorners {
     for (int i = 0; i < face.count; ++i)
       gaps[i] = outward.dot(face.corners[i].p) - level, least = std::min(least, gaps[i]);
   }
+  // `n` looks from b to a.
   void add(const Vec3& outward, const Vec3& n, std::uint32_t tag, Manifold& out) const {
     for (int i = 0; i < face.count; ++i)
       out.add(n, face.corners[i].p - 0.5 * gaps[i] * outward, gaps[i], face.corners[i].id ^ tag);

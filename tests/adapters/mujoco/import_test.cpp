@@ -37,6 +37,11 @@ struct Own {
     data.reset(mj_makeData(model.get()));
     mj_forward(model.get(), data.get());
   }
+  // Starts from this keyframe.
+  void start(int keyframe) {
+    mj_resetDataKeyframe(model.get(), data.get(), keyframe);
+    mj_forward(model.get(), data.get());
+  }
   void step() { mj_step(model.get(), data.get()); }
   void place() { mj_kinematics(model.get(), data.get()); }
   int body(const std::string& name) const { return mj_name2id(model.get(), mjOBJ_BODY, name.c_str()); }
@@ -157,8 +162,7 @@ BOOST_AUTO_TEST_CASE(a_keyframe_s_control_drives_the_scene_as_it_drives_mujoco) 
   BOOST_TEST_REQUIRE(scene.motors.size() == 3u);
   BOOST_TEST(std::abs(scene.motors[0].effort - 1.2) < 1e-15);  // gain 1 × control 0.4 × gear 3
   Own own(path);
-  mj_resetDataKeyframe(own.model.get(), own.data.get(), 0);
-  mj_forward(own.model.get(), own.data.get());
+  own.start(0);
   check_alike("m.xml", apart_after(own, "mujoco", without_limits(scene), 1));
   // The model's own state has no control, and the notice says so.
   BOOST_TEST(some_has(sentences_of(import_model(path).losses), "actuator 'push': a drive: has control 0"));
@@ -180,8 +184,7 @@ BOOST_AUTO_TEST_CASE(a_keyframe_is_a_state_to_start_from) {
   const std::string path = folder.write("bent.xml", kBent);
   const Scene scene = read_case_text(case_text_of(import_model(path, {.keyframe = "bent"})), path, path, words()).scene;
   Own own(path);
-  mj_resetDataKeyframe(own.model.get(), own.data.get(), 1);
-  mj_forward(own.model.get(), own.data.get());
+  own.start(1);
   check_start(own, scene);
   BOOST_TEST(body_named(scene, "free").angular_velocity.norm() > 0.5);
   BOOST_TEST(std::abs(joint_named(scene, "shoulder").upper - 1.6) < 1e-15);
@@ -194,7 +197,8 @@ BOOST_AUTO_TEST_CASE(a_keyframe_is_a_state_to_start_from) {
                         says("a file of this format has none"));
 }
 
-// Each joint of a body turns the axes of those before it no longer: at this start the body's frame has all three turns.
+// A later joint of a body does not turn the axes of those before it. At this start the body's frame has all three
+// turns.
 const std::string kThreeAxes = R"(<mujoco><compiler angle="radian" autolimits="false"/><worldbody>
   <body name="carried" pos="0 0 2"><joint name="along" type="slide" axis="1 0 0.5"/><joint name="about" axis="0 0 1"/>
     <inertial pos="0.1 0 -0.2" mass="2" fullinertia="0.2 0.25 0.1 0.01 0 0"/>
@@ -211,8 +215,7 @@ BOOST_AUTO_TEST_CASE(joints_in_series_start_about_the_axes_that_the_state_gives_
   BOOST_TEST(losses_of(made.losses, LossKind::physical).empty());
   const Scene scene = read_case_text(case_text_of(made), path, path, words()).scene;
   Own own(path);
-  mj_resetDataKeyframe(own.model.get(), own.data.get(), 0);
-  mj_forward(own.model.get(), own.data.get());
+  own.start(0);
   check_start(own, scene);
   check_alike("three.xml", apart_after(own, "mujoco", without_limits(scene), 1));
 }

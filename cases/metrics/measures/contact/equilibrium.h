@@ -1,5 +1,5 @@
-// What the equations of motion say of the contact forces between bodies: six equations for each moving body, and an
-// unknown force at each contact point. A pair's resultant is determined in those directions whose rows lie in the row
+// The contact forces that follow from the equations of motion. Each moving body gives six equations, and each contact
+// point has an unknown force. A pair's resultant is determined in those directions whose rows lie in the row
 // space of the equations' matrix. In statics this is the question of statical determinacy.
 #pragma once
 

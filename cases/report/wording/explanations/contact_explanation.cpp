@@ -71,18 +71,16 @@ std::string spikes_text(const Results& results, const Diagnosis& found, const st
 std::string creep_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
   const StepSize& dt = found.over.back().first;
   return fmt::format(
-      "Why: the friction of {} holds no body at rest. At the end a body is {} from its place, at dt = {} s. Friction "
-      "that is regularised gives way at a steady speed, however hard the bodies press. Make friction stiffer, or take "
-      "a "
-      "solver without regularisation.",
+      "Why: the friction of {} holds no body at rest. At the end a body is {} from its place, at dt = {} s. If "
+      "friction is regularised, it gives way at a steady speed, however hard the bodies press. Make friction stiffer "
+      "then.",
       name, claims.quantity(claim_of(results, found, dt, "creep", found.value), "m"), dt.text);
 }
 
 std::string hover_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
   return fmt::format(
       "Why: bodies of {} press on each other across a gap. The mean gap under load: {}. Friction that is solved "
-      "together "
-      "with the normal force lifts a sliding body by up to dt mu v. Take a smaller step.",
+      "with the normal force can lift a sliding body by dt mu v. Take a smaller step.",
       name, text_over_steps(results, found, "hover", "m", claims));
 }
 
