@@ -41,7 +41,6 @@ std::string why_choice_fails(const std::string& engine, const OptionInfo& option
                                       : fmt::format("{} would do", fmt::join(would_do, " or ")));
 }
 
-// A number has no choices. Its features, under the choice "", are those of runs that name it.
 bool gives_if_named(const OptionInfo& option, Feature feature) {
   const auto row = option.features_of_choice.find("");
   return row != option.features_of_choice.end() && row->second.contains(feature);

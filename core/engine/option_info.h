@@ -32,6 +32,7 @@ struct OptionInfo {
   std::optional<OptionDefault> as_shipped = {};  // the default on the track `stock`, if it differs
   // For an option that decides what can be expressed: the part of EngineInfo::features that each choice has. A run that
   // does not name the option uses the first choice that expresses the scene.
+  // A number has one row, under "": a run that names the option has these features even if its method lacks them.
   std::map<std::string, Features> features_of_choice = {};
 };
 
