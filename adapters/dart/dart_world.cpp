@@ -23,6 +23,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/engine/saved_bytes.h"
 #include "core/scene/contact_laws.h"
+#include "core/scene/turn_window.h"
 
 namespace rigor {
 namespace {
@@ -62,7 +63,8 @@ void refuse_what_features_do_not_say(const Scene& scene, const SpanningTree& tre
     if (scene.joints[k].has_limits() && scene.joints[k].restitution > 0)
       refuse(static_cast<int>(k), "bounces at its limits, and DART's limits have no restitution");
     const bool is_beyond = scene.joints[k].lower < -std::numbers::pi || scene.joints[k].upper > std::numbers::pi;
-    if (scene.joints[k].has_limits() && is_beyond && scene.joints[k].stiffness > 0 && turns(scene.joints[k]))
+    if (scene.joints[k].has_limits() && is_beyond && scene.joints[k].stiffness > 0 && turns(scene.joints[k]) &&
+        !middle_of_turn(scene.joints[k]))
       refuse(static_cast<int>(k), "has a spring and a limit beyond half a turn, and DART counts one angle for both");
   }
   for (const int k : tree.loops) {

@@ -74,7 +74,7 @@ void drive_joint(MjcfImport& import, int k, const Law& law) {
   servo.kp = kp, servo.kd = kd, servo.most = std::abs(gear) * law.most;
   servo.target = TimeTable::constant(kp > 0 ? gear * law.constant / kp - import.start_of(joint) : 0);
   servo.target_speed = kp > 0 ? 0 : gear * law.constant / kd;
-  if (kp > 0 && import.may_turn_round(joint, servo.target.values.front()))
+  if (kp > 0 && import.may_turn_round(joint))
     import.lose("actuator", k, "a servo beyond half a turn", "a scene's servo does not count whole turns");
   Motor motor;
   motor.joint = row, motor.servo = servo;

@@ -161,7 +161,7 @@ void read_fixed_tendon(MjcfImport& import, int k, double stiffness, double dampi
   const double added = stiffness * coefficient * coefficient;
   if (added > 0) driven.rest = (driven.stiffness * driven.rest + added * rest) / (driven.stiffness + added);
   driven.stiffness += added, driven.damping += damping * coefficient * coefficient;
-  if (import.may_turn_round(joint, driven.rest) && added > 0)
+  if (import.may_turn_round(joint) && added > 0)
     import.lose("tendon", k, "a spring beyond half a turn", "a scene's spring does not count whole turns");
 }
 

@@ -46,9 +46,8 @@ struct MjcfImport {
   static int link_of(int body) { return body - 1; }
   BodyPose pose_of(int body) const { return body == 0 ? BodyPose() : model.links[link_of(body)].pose; }
   double start_of(int joint) const { return value("qpos", whole("jnt_qposadr", joint)); }
-  // Whether a hinge could turn further than half a turn from `rest`, counted from its start. A scene's springs and
-  // servos do not count whole turns.
-  bool may_turn_round(int joint, double rest) const;
+  // Whether a hinge lacks limits less than a turn apart. A scene's springs and servos then do not count whole turns.
+  bool may_turn_round(int joint) const;
 };
 
 // Each adds its part to import.model.

@@ -93,7 +93,7 @@ LinkJoint axis_joint(MjcfImport& import, int joint) {
   if (import.whole("jnt_limited", joint))
     row.joint.lower = import.value("jnt_range", 2 * joint) - start,
     row.joint.upper = import.value("jnt_range", 2 * joint + 1) - start;
-  if (row.joint.stiffness > 0 && import.may_turn_round(joint, row.joint.rest))
+  if (row.joint.stiffness > 0 && import.may_turn_round(joint))
     import.lose("joint", joint, "a spring beyond half a turn", "a scene's spring does not count whole turns");
   lose_powers(import, joint);
   return row;
@@ -166,12 +166,10 @@ void name_joints(LinkModel& model) {
 
 }  // namespace
 
-bool MjcfImport::may_turn_round(int joint, double rest) const {
+bool MjcfImport::may_turn_round(int joint) const {
   if (whole("jnt_type", joint) != kHinge) return false;
-  if (!whole("jnt_limited", joint)) return true;
-  const double start = start_of(joint);
-  return std::max(std::abs(value("jnt_range", 2 * joint) - start - rest),
-                  std::abs(value("jnt_range", 2 * joint + 1) - start - rest)) > kPi;
+  return !whole("jnt_limited", joint) ||
+         value("jnt_range", 2 * joint + 1) - value("jnt_range", 2 * joint) >= 2 * std::numbers::pi;
 }
 
 LinkModel links_of_mjcf(const MjcfSource& source, CompiledMjcf compiled) {

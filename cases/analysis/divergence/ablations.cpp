@@ -9,6 +9,7 @@
 #include "cases/analysis/divergence/rebased_scene.h"
 #include "core/dynamics/collision/narrow_phase.h"
 #include "core/scene/contact_laws.h"
+#include "core/scene/turn_window.h"
 
 namespace rigor {
 namespace {
@@ -191,7 +192,7 @@ class Ablater {
   std::string drive_detail(const Motor& motor, std::size_t k) const {
     if (!motor.servo || !std::isfinite(motor.servo->most)) return "";
     const double rate = moved(k) / step_.seconds;
-    const double effort = motor.servo->unbounded(0, rate, 0, turns(scene_.joints[k]));
+    const double effort = motor.servo->unbounded(0, rate, 0, takes_the_shorter_way(scene_.joints[k]));
     const bool is_saturated = std::abs(effort) >= motor.servo->most;
     return fmt::format("{}: it asks for {:.3g}, and may give {:.3g}", is_saturated ? "saturated" : "not saturated",
                        effort, motor.servo->most);

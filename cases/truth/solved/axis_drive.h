@@ -12,6 +12,7 @@
 
 #include "cases/truth/solved/axis_modes.h"
 #include "core/scene/scene.h"
+#include "core/scene/turn_window.h"
 
 namespace rigor {
 
@@ -94,7 +95,7 @@ class AxisDrive {
     } else if (mode.saturated != 0) {
       constant_ += static_cast<Real>(mode.saturated * motor->servo->most);
     } else {
-      law_.emplace(*motor->servo, turns(scene.joints[joint]), within);
+      law_.emplace(*motor->servo, takes_the_shorter_way(scene.joints[joint]), within);
     }
   }
 

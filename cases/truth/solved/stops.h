@@ -146,13 +146,15 @@ class Stops {
     return side != 0 && (speed <= kStill || speed <= rest_time_ * back);
   }
 
+  const Joint& joint_of(std::size_t k) const { return motion_.scene().joints[motion_.axes()[k].joint]; }
+
   // Fills in what a continuous servo asks for at t.
  public:
   void add_servos(Values& at, const Real& t, double during) const {
     for (std::size_t k = 0; k < at.size(); ++k) {
       const Motor* const motor = servo_at(motion_.scene(), motion_.axes()[k].joint, during);
       if (!motor || motor->servo->period > 0) continue;
-      const ServoLaw<Real> law(*motor->servo, motion_.axes()[k].is_hinge, during);
+      const ServoLaw<Real> law(*motor->servo, takes_the_shorter_way(joint_of(k)), during);
       at[k].servo = law.effort(at[k].x, at[k].rate, t);
       at[k].servo_change = law.change(at[k].rate, at[k].acceleration);
     }
@@ -172,7 +174,7 @@ class Stops {
       const double periods = (t - motor->from) / motor->servo->period;
       constexpr double kSameInstant = 1e-9;  // of a period
       if (std::abs(periods - std::round(periods)) > kSameInstant) continue;
-      const ServoLaw<Real> law(*motor->servo, motion_.axes()[k].is_hinge, during);
+      const ServoLaw<Real> law(*motor->servo, takes_the_shorter_way(joint_of(k)), during);
       const Real most = static_cast<Real>(motor->servo->most);
       state[motion_.clock_place() + 1 + k] =
           std::clamp<Real>(law.effort(at[k].x, at[k].rate, static_cast<Real>(t)), -most, most);

@@ -9,6 +9,7 @@
 
 #include "core/dynamics/kernels/kernels.h"
 #include "core/engine/state_archive.h"
+#include "core/scene/turn_window.h"
 
 namespace rigor {
 namespace {
@@ -19,6 +20,16 @@ constexpr double kClosed = 16 * kEpsilon;  // of the longest arm: what rounding 
 constexpr double kRounding = 1e-12;        // and where bodies are far from the origin
 constexpr double kOpen = 1e-9;             // of the longest moving arm: a gap that no rounding explains
 constexpr double kWellPosed = 1e-5;        // pivots above it leave eleven digits or more
+
+// Whether a spring, or a servo that takes no shorter way, has an effort that jumps where the angle does.
+bool goes_by_its_angle(const Scene& scene, std::size_t k) {
+  const Joint& joint = scene.joints[k];
+  if (!free_axis(joint) || !turns(joint)) return false;
+  return joint.stiffness > 0 ||
+         (middle_of_turn(joint) && std::any_of(scene.motors.begin(), scene.motors.end(), [k](const Motor& motor) {
+            return motor.servo && motor.joint == static_cast<int>(k);
+          }));
+}
 
 }  // namespace
 
@@ -34,7 +45,7 @@ Joints::Joints(const Scene& scene, const System& system)
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     names_.push_back(scene.joint_name(k));
     const Joint& joint = scene.joints[k];
-    if (joint.stiffness > 0 && turns(joint)) sprung_.push_back({JointCoordinate(scene, joint), k, 0});
+    if (goes_by_its_angle(scene, k)) sprung_.push_back({JointCoordinate(scene, joint), k, 0});
     if (const auto* compound = std::get_if<CompoundJoint>(&joint.type)) {
       const auto& axes = compound->axes;
       const auto turn = [](const SeriesAxis& axis) { return axis.turns; };

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/turn_window.h"
+
 namespace rigor {
 namespace {
 
@@ -15,7 +17,7 @@ SeriesEnd end_state(BodyColumns bodies, int body) {
 }  // namespace
 
 JointCoordinate::JointCoordinate(const Scene& scene, const Joint& joint)
-    : a_(joint.a), b_(joint.b), turns_(rigor::turns(joint)) {
+    : a_(joint.a), b_(joint.b), turns_(rigor::turns(joint)), middle_(middle_of_turn(joint).value_or(0)) {
   const BodyPose a = scene.pose(joint.a), b = scene.pose(joint.b);
   if (const auto* of_compound = std::get_if<CompoundAxis>(&joint.type))
     series_.emplace(of_compound->axes, a, b), index_ = of_compound->index;
@@ -27,7 +29,12 @@ JointCoordinate::JointCoordinate(const Scene& scene, const Joint& joint)
 }
 
 JointCoordinate::Value JointCoordinate::at(BodyColumns bodies) const {
-  if (series_) return in_series(bodies);
+  Value value = series_ ? in_series(bodies) : on_axis(bodies);
+  if (middle_ != 0) value.x = with_turns(value.x, middle_);
+  return value;
+}
+
+JointCoordinate::Value JointCoordinate::on_axis(BodyColumns bodies) const {
   const SeriesEnd a = end_state(bodies, a_), b = end_state(bodies, b_);
   const Vec3 axis = a.R * axis_a_;
   Value value;

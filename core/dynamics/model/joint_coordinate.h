@@ -1,6 +1,6 @@
 // The one coordinate x of a hinge, a slider or an axis of a compound joint, on which its spring, damper, limits and
-// motors act. For a hinge it is the angle [rad] of b relative to a about the axis since t = 0, from -pi to pi. For a
-// slider it is the displacement [m] of b's centre along the axis.
+// motors act. For a hinge it is the angle [rad] of b relative to a about the axis since t = 0, within half a turn of 0
+// or of the middle_of_turn() between its limits. For a slider it is the displacement [m] of b's centre along the axis.
 #pragma once
 
 #include <optional>
@@ -33,10 +33,12 @@ class JointCoordinate {
   double with_turns(double x, double near) const;
 
  private:
+  Value on_axis(BodyColumns bodies) const;
   Value in_series(BodyColumns bodies) const;
 
   int a_, b_;
   bool turns_;
+  double middle_;                     // rad: of the turn in which the angle lies
   std::optional<AxisSeries> series_;  // of an axis of a compound joint,
   std::size_t index_ = 0;             // and which of them it is
   Vec3 axis_a_;                       // unit, in a's frame

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/turn_window.h"
+
 namespace rigor {
 namespace {
 
@@ -72,7 +74,7 @@ void Loads::add_drive(const Scene& scene, std::size_t k) {
   for (const Motor& motor : scene.motors) {
     if (motor.joint != static_cast<int>(k)) continue;
     has_speed |= motor.speed.has_value();
-    if (motor.servo) servos.emplace_back(motor, turns(joint));
+    if (motor.servo) servos.emplace_back(motor, takes_the_shorter_way(joint));
     if (motor.gives_effort()) motors.push_back(motor);
   }
   if (joint.stiffness == 0 && joint.damping == 0 && motors.empty() && servos.empty() && !has_speed) return;

@@ -12,6 +12,7 @@ namespace rigor {
 
 class ServoDrive {
  public:
+  // `turns`: of an angle that is known up to whole turns.
   ServoDrive(const Motor& motor, bool turns) : motor_(motor), turns_(turns) {}
 
   // Within a part of a step [t, t + dt]; `instant` as in JointDrive::effort().

@@ -77,6 +77,27 @@ BOOST_AUTO_TEST_CASE(a_hinges_spring_and_damper_make_a_damped_oscillation) {
   BOOST_TEST(std::log2(coarse / fine) > 1.9);
 }
 
+// Between limits less than a turn apart the spring goes by the turns: from 0 it swings to -4 rad and back.
+BOOST_AUTO_TEST_CASE(a_spring_between_limits_counts_turns) {
+  Scene scene = wheel();
+  scene.joints[0].stiffness = 8, scene.joints[0].rest = -2;
+  scene.joints[0].lower = -4.5, scene.joints[0].upper = 0.5;
+  for (const double t : {0.5, 0.75, 1.3}) {
+    const double exact = -2 + 2 * std::cos(std::sqrt(8 / 0.5) * t);
+    const int steps = static_cast<int>(std::lround(t / 0.01));
+    BOOST_TEST(std::abs(coordinate(scene, after(scene, "dormand-prince", 0.01, steps)) - exact) < 1e-10);
+  }
+  // Without the second limit the angle jumps, and the run says so.
+  scene.joints[0].upper = std::numeric_limits<double>::infinity();
+  const auto world = CoreEngine().load(scene, {.method = "dormand-prince", .options = {}});
+  bool is_said = false;
+  for (int n = 0; n < 75; ++n) {
+    world->step(0.01);
+    is_said |= world->solver_warning().find("half a turn") != std::string::npos;
+  }
+  BOOST_TEST(is_said);
+}
+
 // The pair of forces acts along one line: linear and angular momentum stay, and the energy with the spring's.
 BOOST_AUTO_TEST_CASE(a_sliders_spring_on_a_free_pair_keeps_momenta_and_energy) {
   Scene scene = free_slider();
