@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cases/metrics/measures/joints/joint_geometry.h"
+#include "core/dynamics/joints/joint_rows.h"
 
 namespace rigor {
 namespace {
@@ -16,92 +16,81 @@ namespace {
 using DenseMatrix = Eigen::MatrixXd;
 using RateRow = Eigen::RowVectorXd;
 
-// Rows that take all bodies' velocities (linear, then angular, in W) to the rate of a coordinate.
+// Rows that take all bodies' velocities (linear, then angular, in W) and the rotors' speeds to the rate of a
+// coordinate.
 class VelocityRows {
  public:
-  explicit VelocityRows(const Scene& scene) : scene_(scene) {}
-
-  Eigen::Index columns() const { return 6 * static_cast<Eigen::Index>(scene_.bodies.size()); }
-
-  // Adds `factor` times the rate along `direction` of the point at `arm` [m, in W] from the body's centre.
-  void add_point(RateRow& row, int body, const Vec3& arm, const Vec3& direction) const {
-    if (!moves(body)) return;
-    row.segment<3>(6 * body) += direction.transpose();
-    row.segment<3>(6 * body + 3) += arm.cross(direction).transpose();
+  explicit VelocityRows(const Scene& scene) : scene_(scene), start_(scene.bodies.size()) {
+    set_initial_state(scene, start_.columns());
+    for (std::size_t k = 0; k < scene.joints.size(); ++k)
+      if (scene.joints[k].armature > 0) rotors_.push_back(k);
   }
-  void add_turn(RateRow& row, int body, const Vec3& direction) const {
-    if (moves(body)) row.segment<3>(6 * body + 3) += direction.transpose();
-  }
-  RateRow point_row(int a, const Vec3& arm_a, int b, const Vec3& arm_b, const Vec3& direction) const {
+
+  Eigen::Index columns() const { return 6 * bodies() + static_cast<Eigen::Index>(rotors_.size()); }
+
+  // Of a spring's length.
+  RateRow spring_row(const Spring& spring, const Vec3& arm_a, const Vec3& arm_b, const Vec3& direction) const {
     RateRow row = RateRow::Zero(columns());
-    add_point(row, a, arm_a, -direction), add_point(row, b, arm_b, direction);
+    add(row, spring.a, -direction, -arm_a.cross(direction)), add(row, spring.b, direction, arm_b.cross(direction));
     return row;
   }
-  RateRow turn_row(int a, int b, const Vec3& direction) const {
+  // Of a joint's free coordinate.
+  RateRow coordinate_row(const Joint& joint) const {
+    const JointCoordinate::Value at = JointCoordinate(scene_, joint).at(start_.columns());
     RateRow row = RateRow::Zero(columns());
-    add_turn(row, a, -direction), add_turn(row, b, direction);
+    add(row, joint.a, -at.force, at.torque_a), add(row, joint.b, at.force, at.torque_b);
     return row;
   }
-  bool moves(int body) const { return body != kWorld && !scene_.bodies[static_cast<std::size_t>(body)].fixed; }
+  // What joints, couplings and rotors hold at zero.
+  std::vector<RateRow> held() const {
+    const System system(scene_);
+    JointRows joints(scene_, system);
+    joints.evaluate(start_.columns());
+    std::vector<RateRow> rows;
+    for (const JointRow& joint : joints.joints()) {
+      for (int k = 0; k < joint.rows; ++k) {
+        RateRow& row = rows.emplace_back(RateRow::Zero(columns()));
+        for (int end = 0; end < joint.ends; ++end) {
+          const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>> J(joint.J[end], joint.most_rows, 6);
+          add(row, joint.end[end], J.row(k).head<3>(), J.row(k).tail<3>());
+        }
+      }
+    }
+    for (std::size_t r = 0; r < rotors_.size(); ++r) {
+      rows.push_back(coordinate_row(scene_.joints[rotors_[r]]));
+      rows.back()[6 * bodies() + static_cast<Eigen::Index>(r)] = -1;
+    }
+    return rows;
+  }
+  // M^-1/2, in W: blocks of six for bodies, then the rotors.
+  DenseMatrix inverse_root_masses() const {
+    DenseMatrix root = DenseMatrix::Zero(columns(), columns());
+    for (Eigen::Index i = 0; i < bodies(); ++i) {
+      const Body& body = scene_.bodies[static_cast<std::size_t>(i)];
+      if (body.fixed) continue;
+      const Mat3 R = body.orientation.toRotationMatrix(), inertia = R * body.inertia * R.transpose();
+      root.block<3, 3>(6 * i, 6 * i) = Mat3::Identity() / std::sqrt(body.mass);
+      root.block<3, 3>(6 * i + 3, 6 * i + 3) = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).operatorInverseSqrt();
+    }
+    for (std::size_t r = 0; r < rotors_.size(); ++r) {
+      const Eigen::Index at = 6 * bodies() + static_cast<Eigen::Index>(r);
+      root(at, at) = 1 / std::sqrt(scene_.joints[rotors_[r]].armature);
+    }
+    return root;
+  }
   Vec3 centre(int body) const { return scene_.pose(body).position; }
 
  private:
+  Eigen::Index bodies() const { return static_cast<Eigen::Index>(scene_.bodies.size()); }
+  void add(RateRow& row, int body, const Vec3& linear, const Vec3& angular) const {
+    if (body == kWorld || scene_.bodies[static_cast<std::size_t>(body)].fixed) return;
+    row.segment<3>(6 * body) += linear.transpose(), row.segment<3>(6 * body + 3) += angular.transpose();
+  }
+
   const Scene& scene_;
+  BodyTable start_;
+  std::vector<std::size_t> rotors_;  // the joints that have one
 };
-
-// Two directions that complete the axis to a frame.
-std::pair<Vec3, Vec3> across(const Vec3& axis) {
-  Vec3::Index least = 0;
-  axis.cwiseAbs().minCoeff(&least);
-  const Vec3 first = axis.cross(Vec3::Unit(least)).normalized();
-  return {first, axis.cross(first)};
-}
-
-void add_held_rows(const Scene& scene, const Joint& joint, const VelocityRows& rows, std::vector<RateRow>& held) {
-  const JointGeometry geometry(scene, joint);
-  const BodyPose a = scene.pose(joint.a), b = scene.pose(joint.b);
-  const Vec3 arm_b = b.orientation * geometry.b().point, place = b.position + arm_b;
-  const Vec3 arm_a = place - a.position;  // of the point of a that lies there
-  const auto hold_point = [&](const Vec3& direction) {
-    held.push_back(rows.point_row(joint.a, arm_a, joint.b, arm_b, direction));
-  };
-  const auto hold_turn = [&](const Vec3& direction) { held.push_back(rows.turn_row(joint.a, joint.b, direction)); };
-  if (std::holds_alternative<DistanceJoint>(joint.type)) {
-    const Vec3 own_arm = a.orientation * geometry.a().point;
-    const Vec3 line = (place - a.position - own_arm).normalized();
-    held.push_back(rows.point_row(joint.a, own_arm, joint.b, arm_b, line));
-    return;
-  }
-  const Vec3 axis = a.orientation * geometry.a().axis;
-  if (std::holds_alternative<SliderJoint>(joint.type)) {
-    const auto [u, v] = across(axis);
-    hold_point(u), hold_point(v);
-  } else {
-    for (int k = 0; k < 3; ++k) hold_point(Vec3::Unit(k));
-  }
-  if (std::holds_alternative<HingeJoint>(joint.type)) {
-    const auto [u, v] = across(axis);
-    hold_turn(u), hold_turn(v);
-  } else if (std::holds_alternative<UniversalJoint>(joint.type)) {
-    hold_turn(axis.cross(b.orientation * geometry.b().axis).normalized());
-  } else if (!std::holds_alternative<BallJoint>(joint.type)) {
-    for (int k = 0; k < 3; ++k) hold_turn(Vec3::Unit(k));
-  }
-}
-
-// M^-1/2 of each body, in W, as blocks of six.
-DenseMatrix inverse_root_masses(const Scene& scene, const VelocityRows& rows) {
-  DenseMatrix root = DenseMatrix::Zero(rows.columns(), rows.columns());
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    const auto at = 6 * static_cast<Eigen::Index>(i);
-    if (body.fixed) continue;
-    const Mat3 R = body.orientation.toRotationMatrix(), inertia = R * body.inertia * R.transpose();
-    root.block<3, 3>(at, at) = Mat3::Identity() / std::sqrt(body.mass);
-    root.block<3, 3>(at + 3, at + 3) = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).operatorInverseSqrt();
-  }
-  return root;
-}
 
 struct ElementRows {
   std::vector<ForceElement> elements;
@@ -120,18 +109,14 @@ ElementRows elements_of(const Scene& scene, const VelocityRows& rows) {
         {ForceElement::Kind::spring,
          fmt::format("the spring of '{}' and '{}'", scene.body_name(spring.a), scene.body_name(spring.b)),
          spring.stiffness, spring.damping});
-    found.rows.push_back(rows.point_row(spring.a, arm_a, spring.b, arm_b, line.normalized()));
+    found.rows.push_back(rows.spring_row(spring, arm_a, arm_b, line.normalized()));
   }
   const auto add_on_joint = [&](std::size_t i, const std::string& name, double stiffness, double damping, bool servo) {
     const Joint& joint = scene.joints[i];
-    const Vec3* axis = free_axis(joint);
-    if (!axis || (stiffness == 0 && damping == 0)) return;
-    const bool is_hinge = std::holds_alternative<HingeJoint>(joint.type);
-    found.elements.push_back(
-        {is_hinge ? ForceElement::Kind::hinge : ForceElement::Kind::slider, name, stiffness, damping, servo});
-    const Vec3 to_b = rows.centre(joint.b) - rows.centre(joint.a);
-    found.rows.push_back(is_hinge ? rows.turn_row(joint.a, joint.b, *axis)
-                                  : rows.point_row(joint.a, to_b, joint.b, Vec3::Zero(), *axis));
+    if (!free_axis(joint) || (stiffness == 0 && damping == 0)) return;
+    const auto kind = turns(joint) ? ForceElement::Kind::hinge : ForceElement::Kind::slider;
+    found.elements.push_back({kind, name, stiffness, damping, servo});
+    found.rows.push_back(rows.coordinate_row(joint));
   };
   for (std::size_t i = 0; i < scene.joints.size(); ++i)
     add_on_joint(i, scene.joint_name(i), scene.joints[i].stiffness, scene.joints[i].damping, false);
@@ -161,20 +146,12 @@ DenseMatrix held_directions(const std::vector<RateRow>& held, const DenseMatrix&
 }  // namespace
 
 std::optional<SmallMotions> SmallMotions::of(const Scene& scene) {
-  const bool is_known =
-      scene.couplings.empty() && std::none_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
-        return joint.armature > 0 || std::holds_alternative<CompoundJoint>(joint.type) ||
-               std::holds_alternative<PlanarJoint>(joint.type) || std::holds_alternative<ScrewJoint>(joint.type);
-      });
-  if (!is_known) return {};
   constexpr std::size_t kMostElements = 300, kMostBodies = 150;  // dense algebra takes a tenth of a second
   const VelocityRows rows(scene);
   ElementRows found = elements_of(scene, rows);
   if (found.elements.empty() || found.elements.size() > kMostElements || scene.bodies.size() > kMostBodies) return {};
-  const DenseMatrix root = inverse_root_masses(scene, rows);
-  std::vector<RateRow> held;
-  for (const Joint& joint : scene.joints) add_held_rows(scene, joint, rows, held);
-  const DenseMatrix Q = held_directions(held, root);
+  const DenseMatrix root = rows.inverse_root_masses();
+  const DenseMatrix Q = held_directions(rows.held(), root);
   DenseMatrix G(static_cast<Eigen::Index>(found.rows.size()), rows.columns());
   for (std::size_t i = 0; i < found.rows.size(); ++i) G.row(static_cast<Eigen::Index>(i)) = found.rows[i] * root;
   G -= (G * Q) * Q.transpose();

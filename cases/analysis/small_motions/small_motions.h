@@ -1,4 +1,5 @@
-// The small motions of a scene about its start, as its springs and dampers see them. Joints are held exactly.
+// The small motions of a scene about its start, as its springs and dampers see them. Joints and couplings are held
+// exactly, and rotors turn with their joints.
 #pragma once
 
 #include <Eigen/Core>

@@ -48,6 +48,44 @@ BOOST_AUTO_TEST_CASE(a_slider_between_two_bodies_moves_their_reduced_mass) {
   BOOST_TEST(SmallMotions::of(scene).value().elements()[0].inertia == 2, kRounding);
 }
 
+// The rotor turns with the rod, so its inertia counts beside the rod's.
+BOOST_AUTO_TEST_CASE(a_rotor_adds_its_inertia) {
+  Scene scene;
+  scene.bodies = {test::body("rod", 3, {0.01, 0.25, 0.25}, {0.5, 0, 0})};
+  scene.joints = {{.a = kWorld,
+                   .b = 0,
+                   .type = HingeJoint{Vec3::Zero(), Vec3(0, 0, 1)},
+                   .stiffness = 4,
+                   .damping = 2,
+                   .armature = 3}};
+  BOOST_TEST(SmallMotions::of(scene).value().elements()[0].inertia == 1 + 3, kRounding);
+}
+
+// x = 3 y: an effort on y moves I_y + 3² I_x.
+BOOST_AUTO_TEST_CASE(a_coupling_moves_both_wheels) {
+  Scene scene;
+  scene.bodies = {test::body("fast", 1, {1, 1, 0.2}), test::body("slow", 1, {1, 1, 0.7}, {1, 0, 0})};
+  scene.joints = {{.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()}},
+                  {.a = kWorld, .b = 1, .type = HingeJoint{Vec3(1, 0, 0), Vec3::UnitZ()}, .damping = 1}};
+  scene.couplings = {{.joint = 0, .to = 1, .ratio = 3}};
+  BOOST_TEST(SmallMotions::of(scene).value().elements()[0].inertia == 0.7 + 9 * 0.2, kRounding);
+}
+
+// A slider and a hinge in series carry a rod: the hinge's damper sees the rod's inertia about the anchor, less what the
+// free slider gives way: I + m l² - (m l)²/m with the rod across the slider.
+BOOST_AUTO_TEST_CASE(axes_of_a_compound_joint_are_coordinates) {
+  Scene scene;
+  scene.bodies = {test::body("rod", 3, {0.25, 0.25, 0.25}, {0, 0.5, 0})};
+  const std::vector<SeriesAxis> axes = {{false, Vec3::Zero(), Vec3::UnitX()}, {true, Vec3::Zero(), Vec3::UnitZ()}};
+  scene.joints = {
+      {kWorld, 0, CompoundJoint{axes}}, {kWorld, 0, CompoundAxis{axes, 0}}, {kWorld, 0, CompoundAxis{axes, 1}}};
+  scene.joints[2].damping = 1;
+  BOOST_TEST(SmallMotions::of(scene).value().elements()[0].inertia == 0.25, kRounding);
+  // With the slider kept by a rotor of the rod's mass: half of the rod's m l gives way.
+  scene.joints[1].armature = 3;
+  BOOST_TEST(SmallMotions::of(scene).value().elements()[0].inertia == 0.25 + 0.75 - 1.5 * 1.5 / 6, kRounding);
+}
+
 BOOST_AUTO_TEST_CASE(a_semi_implicit_step_is_bounded_by_frequency_and_damping) {
   BOOST_TEST(largest_semi_implicit_step({10, 0}) == 0.2, kRounding);
   BOOST_TEST(largest_semi_implicit_step({0, 10}) == 0.2, kRounding);
