@@ -1,5 +1,5 @@
 // Finds errors of contacts: restitution that does not converge, overlap returned as speed, friction that depends on the
-// direction, forces that grow as the step shrinks, bodies that creep, and bodies that hover.
+// direction, forces that grow as the step shrinks or do not explain the motion, bodies that creep, and bodies that hover.
 #pragma once
 
 #include "cases/analysis/diagnosis.h"
@@ -19,6 +19,9 @@ inline constexpr const char* kCreeps = "creep";
 // Bodies press on each other across a gap that falls with dt. The value is the mean gap under load at the coarsest step
 // [m].
 inline constexpr const char* kHovers = "hover";
+
+// Contact forces that do not explain the motion. The value is what they leave [N], at the finest step.
+inline constexpr const char* kForcesMissing = "contact-balance";
 
 // One run and one topic in each, sorted by run.
 std::vector<Diagnosis> contact_diagnoses(const CaseResult& result);

@@ -84,12 +84,21 @@ std::string hover_text(const Results& results, const Diagnosis& found, const std
       name, text_over_steps(results, found, "hover", "m", claims));
 }
 
+std::string missing_text(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
+  const StepSize& dt = found.over.back().first;
+  return fmt::format(
+      "Why: the contact forces that {} reports do not explain the motion. They leave {} unexplained at dt = {} s. The "
+      "motion itself may be right.",
+      name, claims.quantity(claim_of(results, found, dt, "contact_balance", found.value), "N"), dt.text);
+}
+
 std::string text_of_topic(const Results& results, const Diagnosis& found, const std::string& name, Claims& claims) {
   if (found.topic == kOverlapGivenBack) return overlap_text(results, found, name, claims);
   if (found.topic == kUnconverged) return unconverged_text(results, found, name, claims);
   if (found.topic == kForceSpikes) return spikes_text(results, found, name, claims);
   if (found.topic == kCreeps) return creep_text(results, found, name, claims);
   if (found.topic == kHovers) return hover_text(results, found, name, claims);
+  if (found.topic == kForcesMissing) return missing_text(results, found, name, claims);
   return friction_text(results, found, name, claims);
 }
 

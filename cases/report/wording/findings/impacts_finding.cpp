@@ -100,6 +100,11 @@ std::optional<Finding> contact_forces_finding(const Results& results, const std:
   });
   add(kHovers, "Bodies press across a gap that falls with dt",
       [&](const Diagnosis& worst) { return text_over_steps(results, worst, "hover", "m", claims); });
+  add(kForcesMissing, "Reported contact forces that do not explain the motion", [&](const Diagnosis& worst) {
+    const StepSize& dt = worst.over.back().first;
+    return fmt::format("{} left at dt = {} s",
+                       claims.quantity(claim_of(results, worst, dt, "contact_balance", worst.value), "N"), dt.text);
+  });
   if (finding.text.empty()) return std::nullopt;
   finding.claims = claims.take();
   return finding;

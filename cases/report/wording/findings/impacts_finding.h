@@ -12,7 +12,8 @@ namespace rigor {
 // `runs`: the runs to report, in this order.
 std::optional<Finding> impacts_finding(const Results& results, const std::vector<std::size_t>& runs);
 
-// Whose contact forces grow as the step shrinks, and whose resting bodies creep: of these runs, the worst case of each.
+// Whose contact forces grow as the step shrinks or do not explain the motion, and whose resting bodies creep: of these
+// runs, the worst case of each.
 std::optional<Finding> contact_forces_finding(const Results& results, const std::vector<std::size_t>& runs);
 
 }  // namespace rigor

@@ -118,6 +118,23 @@ BOOST_AUTO_TEST_CASE(a_gap_under_load_that_falls_with_dt_is_told) {
   BOOST_TEST(said_with(0.02, 0.002, 0.5).empty());  // a bounce leaves a gap
 }
 
+// Of 9.81 N of weight.
+BOOST_AUTO_TEST_CASE(forces_that_do_not_explain_the_motion_are_told) {
+  const auto said_with = [](double coarse, double fine, double gravity) {
+    Results grid = with("contact_balance", coarse, fine, {});
+    Scene& scene = grid.cases.front().definition.scene;
+    scene.gravity = {0, 0, -gravity};
+    for (Body& body : scene.bodies) body.mass = 1;
+    return said_of(grid);
+  };
+  const auto said = said_with(0.9, 1.2, 9.81);
+  BOOST_REQUIRE(said.size() == 1);
+  BOOST_TEST(has(said[0], "They leave 1.2 N unexplained at dt = 1/20 s"), said[0]);
+  BOOST_TEST(said_with(0.09, 1.2, 9.81).empty());  // explained at the coarse step
+  BOOST_TEST(said_with(0.9, 0.09, 9.81).empty());  // and at the fine one
+  BOOST_TEST(said_with(0.9, 1.2, 0).empty());      // no weight to compare with
+}
+
 BOOST_AUTO_TEST_CASE(nothing_is_said_where_nothing_was_measured) { BOOST_TEST(said_of(sample_results()).empty()); }
 
 BOOST_AUTO_TEST_SUITE_END()
