@@ -12,15 +12,17 @@
 namespace rigor {
 namespace {
 
-// What is lost, and how much was assumed or is without effect.
+// What is lost or was assumed, and how much is without effect.
 void say_how_imported(const Case& definition) {
   say_if_it_falls(definition.id, definition.scene);
-  const auto count = [&](LossKind kind) { return losses_of(definition.losses, kind).size(); };
-  for (const Loss& loss : losses_of(definition.losses, LossKind::physical))
-    say(fmt::format("{}: lost: {}", definition.id, sentence_of(loss)));
-  if (count(LossKind::assumed) + count(LossKind::visual) > 0)
-    say(fmt::format("{}: assumptions: {}; kinds of elements without effect on the motion: {}; rigor import lists them",
-                    definition.id, count(LossKind::assumed), count(LossKind::visual)));
+  for (const auto& [kind, word] : {std::pair{LossKind::physical, "lost"}, {LossKind::assumed, "assumed"}}) {
+    for (const Loss& loss : losses_of(definition.losses, kind))
+      say(fmt::format("{}: {}: {}", definition.id, word, sentence_of(loss)));
+  }
+  const std::size_t visual = losses_of(definition.losses, LossKind::visual).size();
+  if (visual > 0)
+    say(fmt::format("{}: kinds of elements without effect on the motion: {}; rigor import lists them", definition.id,
+                    visual));
 }
 
 }  // namespace

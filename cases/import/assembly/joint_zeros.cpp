@@ -84,7 +84,9 @@ void choose_start(LinkJoint& row, bool has_state, LeftOut& left_out) {
   const double within = std::clamp(row.start, row.joint.lower, row.joint.upper);
   if (within == row.start) return;
   const LossKind kind = has_state ? LossKind::physical : LossKind::assumed;
-  left_out.add(row.where, "a start beyond the limits", {kind, "the joint starts at the nearest limit"});
+  left_out.add(row.where, "a start beyond the limits",
+               {kind, fmt::format("the joint starts at the nearest limit, {:.3g} {} away", std::abs(within - row.start),
+                                  turns(row.joint) ? "rad" : "m")});
   row.start = within;
 }
 
