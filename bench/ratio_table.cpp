@@ -104,6 +104,13 @@ std::vector<RatioRow> all_rows() {
   rows.push_back({"pile, a ball of N = 8000 against one of N = 1000", step("pile", 8000, impulse),
                   step("pile", 1000, impulse), Kind::at_most_times, 1.35});
   add_joints(rows);
+  for (const auto& [scene, count] : {std::pair("humanoids", 12), {"humanoids", 1200}, {"quadrupeds", 900}}) {
+    for (const std::string& other : {kMujoco, kBullet, quick, kDart}) {
+      if (!is_built(other)) continue;
+      rows.push_back({fmt::format("{}, N = {}, against {}", scene, count, other), step(scene, count, impulse),
+                      step(scene, count, other), Kind::times_as_fast, other == kMujoco ? 2.0 : 0.0});
+    }
+  }
   rows.push_back({"free-bodies, N = 1000000, against copying the state", step("free-bodies", 1000000, kCore),
                   "limit/copy/1000000", Kind::at_most_times, 1.25});
   rows.push_back({"free-bodies, N = 1000, against the arithmetic in cache", step("free-bodies", 1000, kCore),

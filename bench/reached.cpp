@@ -1,6 +1,7 @@
 #include "bench/reached.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <map>
 
@@ -37,45 +38,58 @@ double distance(BodyColumns a, BodyColumns b) {
   return largest;
 }
 
-double measured(const char* metric, const SceneRow& row, int count, const Engine& engine, const Settings& settings) {
-  const auto at =
-      std::find_if(metrics().begin(), metrics().end(), [&](const MetricRow& r) { return r.name == metric; });
-  if (at == metrics().end()) return kNone;
-  const double duration = row.reached == Reached::penetration ? 2 : 1;
+struct Measured {
+  const char *name, *metric;
+};
+
+Figures measured(std::initializer_list<Measured> wanted, double duration, const SceneRow& row, int count,
+                 const Engine& engine, const Settings& settings) {
   const Scene& scene = scene_of(row, count);
   const Simulation run = simulate(engine, settings, scene, row.dt, duration, {.is_timed = false});
-  if (run.not_finite) return std::numeric_limits<double>::infinity();
-  const MetricResult result =
-      at->measure({.scene = scene, .trajectory = run.trajectory, .truth = nullptr, .leapfrog_stagger = 0});
-  return result.measurement ? result.measurement->value : kNone;
-}
-
-}  // namespace
-
-const char* reached_name(Reached what) {
-  switch (what) {
-    case Reached::trajectory:
-      return "error_m_rad";
-    case Reached::energy:
-      return "energy_error";
-    case Reached::penetration:
-      return "penetration_m";
-    case Reached::joint_gap:
-      return "joint_gap_m";
+  Figures figures;
+  for (const Measured& one : wanted) {
+    const auto at =
+        std::find_if(metrics().begin(), metrics().end(), [&](const MetricRow& r) { return r.name == one.metric; });
+    if (run.not_finite) {
+      figures.emplace_back(one.name, std::numeric_limits<double>::infinity());
+    } else if (at != metrics().end()) {
+      const MetricResult result =
+          at->measure({.scene = scene, .trajectory = run.trajectory, .truth = nullptr, .leapfrog_stagger = 0});
+      figures.emplace_back(one.name, result.measurement ? result.measurement->value : kNone);
+    }
   }
-  return "";
+  return figures;
 }
 
-double reached(const SceneRow& row, int count, const Engine& engine, const Settings& settings) {
-  if (count > kMostBodies) return kNone;
-  if (row.reached == Reached::energy) return measured("energy_drift", row, count, engine, settings);
-  if (row.reached == Reached::penetration) return measured("penetration", row, count, engine, settings);
-  if (row.reached == Reached::joint_gap) return measured("joint_gap", row, count, engine, settings);
+double trajectory_error(const SceneRow& row, int count, const Engine& engine, const Settings& settings) {
   const auto world = engine.load(scene_of(row, count), settings);
   for (long n = steps_in(1, row.dt); n > 0; --n) world->step(row.dt);
   Snapshot snapshot;
   world->read(snapshot);
   return distance(snapshot.bodies(), truth_of(row, count).columns());
+}
+
+}  // namespace
+
+Figures reached(const SceneRow& row, int count, const Engine& engine, const Settings& settings) {
+  if (count > kMostBodies) return {};
+  const Measured gap = {"joint_gap_m", "joint_gap"}, overlap = {"penetration_m", "penetration"};
+  const auto over = [&](double duration, std::initializer_list<Measured> wanted) {
+    return measured(wanted, duration, row, count, engine, settings);
+  };
+  switch (row.reached) {
+    case Reached::energy:
+      return over(1, {{"energy_error", "energy_drift"}});
+    case Reached::penetration:
+      return over(2, {overlap});
+    case Reached::joint_gap:
+      return over(1, {gap});
+    case Reached::gap_and_overlap:
+      return over(2, {gap, overlap});
+    case Reached::trajectory:
+      break;
+  }
+  return {{"error_m_rad", trajectory_error(row, count, engine, settings)}};
 }
 
 }  // namespace rigor::bench

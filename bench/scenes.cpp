@@ -5,6 +5,7 @@
 #include <map>
 
 #include "adapters/engines.h"
+#include "cases/analysis/repeats/reordered_scene.h"
 #include "cases/case/suite.h"
 #include "cases/cli/vocabulary.h"
 
@@ -231,27 +232,18 @@ Scene four_bars(const SceneRow&, int count) {
   return scene;
 }
 
-// The suite's ragdoll, ten bodies, many times over; each hangs by a hand.
-Scene ragdolls(const SceneRow&, int count) {
-  const Scene one = suite_scene("mechanisms/ragdoll");
-  Scene scene;
-  scene.gravity = one.gravity;
-  const int bodies = static_cast<int>(one.bodies.size());
-  for (int k = 0; k * bodies < count; ++k) {
-    const Vec3 aside(0, 4.0 * k, 0);  // m, wider than one is tall
-    for (Body b : one.bodies) {
-      b.name += " " + std::to_string(k), b.position += aside;
-      scene.bodies.push_back(b);
-    }
-    for (Joint joint : one.joints) {
-      for (int* end : {&joint.a, &joint.b}) *end = *end == kWorld ? kWorld : *end + k * bodies;
-      if (auto* ball = std::get_if<BallJoint>(&joint.type)) ball->anchor += aside;
-      if (auto* hinge = std::get_if<HingeJoint>(&joint.type)) hinge->anchor += aside;
-      scene.joints.push_back(joint);
-    }
-  }
-  return scene;
+// Copies of a case of the suite with `count` bodies in all, but those that are fixed. They stand apart, wider than one
+// is tall.
+Scene many_of(const std::string& id, int count) {
+  const Scene one = suite_scene(id);
+  const auto moving = std::count_if(one.bodies.begin(), one.bodies.end(), [](const Body& body) { return !body.fixed; });
+  constexpr double kApart = 4;  // m
+  return copied(one, static_cast<std::size_t>(count / moving), {0, kApart, 0}).scene;
 }
+// Each hangs by a hand.
+Scene ragdolls(const SceneRow&, int count) { return many_of("mechanisms/ragdoll", count); }
+Scene humanoids(const SceneRow&, int count) { return many_of("robots/humanoid-falls", count); }
+Scene quadrupeds(const SceneRow&, int count) { return many_of("robots/quadruped-stands", count); }
 
 }  // namespace
 
@@ -264,8 +256,10 @@ const std::vector<SceneRow>& scenes() {
       {"contact/collision", {1}, kCourse, Reached::energy, false, of_the_suite},
       {"four-bars", {21, 81}, kFine, Reached::joint_gap, false, four_bars},
       {"free-bodies", {1, 10, 100, 1000, 10000, 100000, 1000000}, kFine, Reached::trajectory, true, free_bodies},
+      {"humanoids", {12, 1200}, kFine, Reached::gap_and_overlap, false, humanoids},
       {"pile", {216, 1000, 8000}, kPile, Reached::penetration, false, pile},
       {"pyramid", {1240}, kPile, Reached::penetration, false, pyramid},
+      {"quadrupeds", {9, 900}, kFine, Reached::gap_and_overlap, false, quadrupeds},
       {"ragdolls", {10, 1000}, kFine, Reached::joint_gap, false, ragdolls},
       {"rod-net", {55, 171}, kFine, Reached::joint_gap, false, rod_net},
       {"spring-chain", {1, 10, 100, 1000, 10000, 100000}, kFine, Reached::trajectory, false, spring_chain},

@@ -11,10 +11,11 @@ namespace rigor::bench {
 
 // What a method reaches beside its speed.
 enum class Reached {
-  trajectory,   // largest distance [m] or angle [rad] from the adaptive method at its tolerance, after 1 s
-  energy,       // largest deviation, relative to the largest kinetic energy
-  penetration,  // deepest overlap [m]
-  joint_gap,    // widest gap of a joint [m]
+  trajectory,       // largest distance [m] or angle [rad] from the adaptive method at its tolerance, after 1 s
+  energy,           // largest deviation, relative to the largest kinetic energy
+  penetration,      // deepest overlap [m]
+  joint_gap,        // widest gap of a joint [m]
+  gap_and_overlap,  // both of these, of robots on a floor
 };
 
 struct SceneRow {

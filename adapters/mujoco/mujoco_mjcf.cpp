@@ -121,11 +121,15 @@ class Writer {
     for (const Body& body : scene_.bodies) {
       if (body.collides) for_each_part(*body.shape, [&](const Shape&, const BodyPose&) { ++shapes; });
     }
-    const std::size_t contacts = std::max<std::size_t>(100, 12 * shapes);
     // A pyramid has twice as many edges as the contact has tangential directions: two, or five with condim 6. MuJoCo
     // allots a dense matrix of so many rows, which is why a pile of 216 balls gets no more than it needs.
     const bool resists = any_law(scene_, [](const ContactLaw& law) { return law.resists_turning(); });
-    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, (resists ? 10 : 4) * contacts + 7 * scene_.joints.size());
+    const std::size_t rows = resists ? 10 : 4;
+    // A matrix of more than 2 GB is refused by MuJoCo. Large scenes with many degrees of freedom get fewer rows.
+    constexpr std::size_t kMostNumbers = 100'000'000;
+    const std::size_t fit = kMostNumbers / (rows * std::max<std::size_t>(1, 6 * scene_.bodies.size()));
+    const std::size_t contacts = std::max<std::size_t>(100, std::min(12 * shapes, fit));
+    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, rows * contacts + 7 * scene_.joints.size());
   }
 
   void write_meshes() {
