@@ -125,11 +125,11 @@ class Writer {
     // allots a dense matrix of so many rows, which is why a pile of 216 balls gets no more than it needs.
     const bool resists = any_law(scene_, [](const ContactLaw& law) { return law.resists_turning(); });
     const std::size_t rows = resists ? 10 : 4;
-    // A matrix of more than 2 GB is refused by MuJoCo. Large scenes with many degrees of freedom get fewer rows.
-    constexpr std::size_t kMostNumbers = 100'000'000;
-    const std::size_t fit = kMostNumbers / (rows * std::max<std::size_t>(1, 6 * scene_.bodies.size()));
-    const std::size_t contacts = std::max<std::size_t>(100, std::min(12 * shapes, fit));
-    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, rows * contacts + 7 * scene_.joints.size());
+    // MuJoCo allots a square of all rows, too, and refuses more than 2 GB. Large scenes get fewer rows for contacts.
+    constexpr std::size_t kMostRows = 12'000;
+    const std::size_t of_joints = 7 * scene_.joints.size(), left = kMostRows - std::min(kMostRows, of_joints);
+    const std::size_t contacts = std::max<std::size_t>(100, std::min(12 * shapes, left / rows));
+    add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, rows * contacts + of_joints);
   }
 
   void write_meshes() {
