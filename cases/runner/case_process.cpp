@@ -279,10 +279,18 @@ std::size_t jobs_in(const CaseResult& planned) {
 
 std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths) {
   std::vector<Spread> found;
+  const bool has_no_truth = planned.definition.truth == "none";
+  std::map<std::size_t, double> finest;  // s, of a run
+  for (const auto& [at, path] : paths) {
+    const Cell& cell = planned.cells[at];
+    const auto [known, is_new] = finest.try_emplace(cell.run, cell.dt.seconds);
+    known->second = std::min(known->second, cell.dt.seconds);
+  }
   for (const auto& [a, path_a] : paths) {
     for (auto later = paths.upper_bound(a); later != paths.end(); ++later) {
       const Cell &one = planned.cells[a], &other = planned.cells[later->first];
-      if (one.dt != other.dt) continue;
+      const bool is_own_step = has_no_truth && one.run == other.run && other.dt.seconds == finest.at(one.run);
+      if (one.dt != other.dt && !is_own_step) continue;
       Spread spread = spread_between(path_a, later->second);
       spread.first = one.run, spread.second = other.run, spread.dt = one.dt;
       found.push_back(spread);

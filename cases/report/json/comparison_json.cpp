@@ -26,9 +26,24 @@ Json observed_orders_json(const Results& results, const CaseResult& result) {
   return orders;
 }
 
+// Of each run at a step with itself at its finest.
+Json own_steps_json(const Results& results, const CaseResult& result) {
+  Json own = Json::array();
+  for (const Spread& spread : result.spreads) {
+    if (spread.first != spread.second) continue;
+    own.push_back({{"run", results.runs[spread.first].text},
+                   {"dt", spread.dt.text},
+                   {"distance", json_of(spread.distance, result.definition.scene)},
+                   {"angle", json_of(spread.angle, result.definition.scene)},
+                   {"compared_until", spread.compared_until}});
+  }
+  return own;
+}
+
 Json spreads_json(const Results& results, const CaseResult& result) {
   Json spreads = Json::array();
   for (const Spread& spread : result.spreads) {
+    if (spread.first == spread.second) continue;
     spreads.push_back({{"first", results.runs[spread.first].text},
                        {"second", results.runs[spread.second].text},
                        {"dt", spread.dt.text},

@@ -8,6 +8,7 @@ namespace rigor {
 
 Json observed_orders_json(const Results& results, const CaseResult& result);
 Json spreads_json(const Results& results, const CaseResult& result);
+Json own_steps_json(const Results& results, const CaseResult& result);
 Json work_precision_json(const Results& results, const CaseResult& result);
 
 }  // namespace rigor

@@ -132,6 +132,7 @@ Json case_json(const Results& results, const CaseResult& result) {
   json["observed_order"] = observed_orders_json(results, result);
   json["work_precision"] = work_precision_json(results, result);
   json["spread"] = spreads_json(results, result);
+  json["own_steps"] = own_steps_json(results, result);
   json["gates"] = gates_json(result);
   json["explanations"] = json["explanation_claims"] = json["step_needed"] = Json::array();
   if (result.stable_steps.empty()) return json;

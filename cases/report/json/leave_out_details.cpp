@@ -110,7 +110,7 @@ void leave_out_details(Json& results) {
   drop_rows_that([](const Json& row) { return row.at("reason") == word_of(SkipReason::not_asked_for); },
                  results.at("stable_dt"));
   for (Json& one : results.at("cases")) {
-    one.at("spread").clear();
+    one.at("spread").clear(), one.at("own_steps").clear();
     one.at("explanation_claims").clear();
     drop_rows_that([](const Json& order) { return order.at("value").is_null(); }, one.at("observed_order"));
     for (Json& order : one.at("observed_order")) order.erase("errors");

@@ -202,7 +202,8 @@ BOOST_AUTO_TEST_CASE(pairs_of_cells_that_different_processes_did_have_their_spre
   });
   const Ran ran = run_with(executor, plan, options.journals);
   BOOST_TEST(executor.told.size() > 1u);
-  const auto& spreads = ran.grid.cases[0].spreads;
+  auto spreads = ran.grid.cases[0].spreads;
+  std::erase_if(spreads, [](const Spread& spread) { return spread.first == spread.second; });
   BOOST_TEST_REQUIRE(spreads.size() == 2u);  // at each of two steps one pair of runs, two cells apart
   for (const Spread& spread : spreads) {
     BOOST_TEST(spread.distance.value == 0.5);

@@ -13,20 +13,23 @@ namespace {
 
 constexpr double kFarther = 10;      // than the median of the nearest distances
 constexpr double kBeyondOthers = 3;  // times the largest distance of the others
+constexpr double kOwnStep = 0.1;     // of the distance between engines: what a step still changes, of first order
 
 class Disagreement {
  public:
   Disagreement(const Results& results, const CaseResult& result) : results_(results), result_(result) {
     const Spread* finest = nullptr;
     for (const Spread& spread : result.spreads) {
-      if (ran(spread) && (!finest || spread.dt.seconds < finest->dt.seconds)) finest = &spread;
+      if (spread.first != spread.second && ran(spread) && (!finest || spread.dt.seconds < finest->dt.seconds))
+        finest = &spread;
     }
     if (!finest) return;
     dt_ = finest->dt;
     std::set<std::string> engines;
     for (std::size_t run = 0; run < results.runs.size(); ++run) {
       const bool is_compared = std::any_of(result.spreads.begin(), result.spreads.end(), [&](const Spread& spread) {
-        return spread.dt == dt_ && ran(spread) && (spread.first == run || spread.second == run);
+        return spread.dt == dt_ && spread.first != spread.second && ran(spread) &&
+               (spread.first == run || spread.second == run);
       });
       if (is_compared && engines.insert(results.runs[run].engine).second) runs_.push_back(run);
     }
@@ -55,6 +58,7 @@ class Disagreement {
                       claims.count(count_claim()), distance, name(widest.first), name(widest.second), where(widest));
     else
       text += fmt::format(" The others are within {} of each other: {}.", distance, names(others));
+    text += own_steps(widest, claims);
     return {{"disagreement", "No truth says who is right." + text, "", claims.take()}};
   }
 
@@ -68,6 +72,34 @@ class Disagreement {
       });
     };
     return stays(spread.first) && stays(spread.second);
+  }
+
+  // How much each run changes from the step before the finest to the finest: what a smaller step can still change.
+  std::string own_steps(const Spread& widest, Claims& claims) const {
+    std::vector<const Spread*> own;
+    for (const std::size_t run : runs_) {
+      const Spread* last = nullptr;
+      for (const Spread& spread : result_.spreads) {
+        const bool is_own = spread.first == run && spread.second == run && ran(spread);
+        if (is_own && (!last || spread.dt.seconds < last->dt.seconds)) last = &spread;
+      }
+      if (last) own.push_back(last);
+    }
+    if (own.empty()) return "";
+    const Spread& latest = **std::min_element(
+        own.begin(), own.end(), [](const Spread* a, const Spread* b) { return a->dt.seconds < b->dt.seconds; });
+    std::erase_if(own, [&](const Spread* one) { return !(one->dt == latest.dt); });
+    double largest = 0;
+    std::string said;
+    for (const Spread* one : own) {
+      largest = std::max(largest, one->distance.value);
+      const Claim change = {"change to the finest step", result_.definition.id, name(one->first), one->dt.text, "",
+                            one->distance.value};
+      said += fmt::format("{}{} {}", said.empty() ? "" : ", ", name(one->first), claims.quantity(change, "m"));
+    }
+    const bool is_of_models = own.size() == runs_.size() && largest < kOwnStep * widest.distance.value;
+    return fmt::format(" From dt = {} s to that step, positions still change: {}.{}", own.front()->dt.text, said,
+                       is_of_models ? " A smaller step will not bring the engines together." : "");
   }
 
   static std::size_t other_of(const Spread& spread, std::size_t run) {

@@ -711,8 +711,16 @@ std::optional<double> distance_of_runs(const Results& results, const CaseResult&
     const Cell* cell = cell_of(results, {"", claim.of_case, results.runs[run].text, claim.dt});
     return cell && !cell->metrics.empty() && !blown(*cell);
   };
+  if (claim.quantity == "change to the finest step") {
+    for (const Spread& spread : one.spreads) {
+      const bool is_own = spread.first == spread.second && results.runs[spread.first].text == claim.of_run;
+      if (is_own && spread.dt.text == claim.dt) return spread.distance.value;
+    }
+    return {};
+  }
   for (const Spread& spread : one.spreads) {
-    if (spread.dt.text != claim.dt || !stays(spread.first) || !stays(spread.second)) continue;
+    if (spread.first == spread.second || spread.dt.text != claim.dt || !stays(spread.first) || !stays(spread.second))
+      continue;
     const std::string &a = results.runs[spread.first].text, &b = results.runs[spread.second].text;
     all[{a, b}] = all[{b, a}] = spread.distance.value;
   }

@@ -56,6 +56,24 @@ Made one_apart() {
 
 }  // namespace
 
+// What a smaller step still changes, against what parts the engines.
+BOOST_AUTO_TEST_CASE(the_steps_own_change_is_said) {
+  const auto with_own = [](double of_first, double of_second) {
+    Made made({"mujoco", "ode"});
+    made.put(0, 1, 0.2);
+    made.put(0, 0, of_first, kCoarse), made.put(1, 1, of_second, kCoarse);
+    return made.said();
+  };
+  const std::string alike = with_own(0.003, 0.001);
+  BOOST_TEST(has(alike, "From dt = 1/30 s to that step, positions still change: mujoco 3 mm, ode 1 mm."), alike);
+  BOOST_TEST(has(alike, "A smaller step will not bring the engines together"), alike);
+  BOOST_TEST(!has(with_own(0.003, 0.05), "will not bring"));
+  Made one_only({"mujoco", "ode"});
+  one_only.put(0, 1, 0.2), one_only.put(0, 0, 0.003, kCoarse);
+  BOOST_TEST(has(one_only.said(), "still change: mujoco 3 mm."));
+  BOOST_TEST(!has(one_only.said(), "will not bring"));  // the other's change is not known
+}
+
 BOOST_AUTO_TEST_CASE(an_engine_far_from_all_others_is_named) {
   const std::string said = one_apart().said();
   BOOST_TEST(
