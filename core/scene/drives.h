@@ -25,7 +25,7 @@ struct TimeTable {
 };
 
 // effort = clamp(kp (target - x) + kd (target_speed - x'), -most, most). For a hinge, target - x is taken from -pi to
-// pi.
+// pi, unless its limits are less than a turn apart (turn_window.h).
 struct Servo {
   TimeTable target;                                       // rad, m
   double kp = 0, kd = 0;                                  // N m/rad and N m s/rad, N/m and N s/m
