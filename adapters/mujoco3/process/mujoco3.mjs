@@ -30,6 +30,19 @@ function addsMargins() {
 }
 const kAddsMargins = addsMargins();
 
+// MuJoCo 3.14 takes a body whose inertia it finds diagonal for a simple one, and then refuses the axes that are set below.
+// Earlier versions do not know the word.
+function wordAgainstSimple() {
+  const word = ' simple="false"';
+  try {
+    const { model, data } = simulated(`<mujoco><worldbody><body${word}><freejoint/><geom size="0.1"/></body></worldbody></mujoco>`);
+    return data.delete(), model.delete(), word;
+  } catch {
+    return "";
+  }
+}
+const kNotSimple = wordAgainstSimple();
+
 // The package does not name the counters of warnings. The places of those for memory are checked against one that is
 // made here: of a speed that is too large.
 const kFull = [1, 2], kBadSpeed = 4;
@@ -137,12 +150,13 @@ function reactionsOf(model, data, ids, rows) {
 
 class World {
   constructor(scene, mjcf) {
-    const { model, data } = simulated(mjcf.text);
+    const { model, data } = simulated(mjcf.text.replace(/<body name="b(\d+)"/g, (open, i) => (mjcf.inertias[i] ? open + kNotSimple : open)));
     Object.assign(this, { scene, mjcf, model, data, six: new mujoco.DoubleBuffer(6), isJointed: !!scene.joint?.length, isFull: false });
     this.ids = scene.body.map((_, i) => mujoco.mj_name2id(model, kBody, `b${i}`)), (this.bodyOf = bodiesOfGeoms(model));
     mjcf.inertias.forEach((inertia, i) => {
       if (!inertia) return;
       model.body_inertia.set(inertia.slice(0, 3), 3 * this.ids[i]), model.body_iquat.set(inertia.slice(3), 4 * this.ids[i]);
+      model.body_sameframe[this.ids[i]] = 0;
     });
     set(model, mjcf.contacts);
     // Constants that follow from the inertias, worked out at the pose of t = 0, which the data then holds again.
