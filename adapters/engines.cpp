@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <initializer_list>
+#include <utility>
 
 #include "adapters/common/engine_row.h"
 #include "adapters/core/core_engine.h"
@@ -56,7 +58,9 @@ EngineRow core_row() { return {make_core}; }
 
 EngineTable built_in_engines() {
   EngineTable table;
-  for (const NamedRow& named : rows()) table.add(named.row.make());
+  for (const NamedRow& named : rows()) {
+    if (std::unique_ptr<Engine> engine = named.row.make()) table.add(std::move(engine));
+  }
   return table;
 }
 
@@ -94,13 +98,34 @@ std::string mjcf_of(const Scene& scene, LeftOut& left_out) {
   return row_for_mjcf("MJCF is written by").write_model(scene, left_out);
 }
 
+namespace {
+
+struct NotBuilt {
+  const char *name, *package;  // Debian's, for its library
+};
+
+std::vector<MissingEngine> find_missing_engines() {
+  std::vector<MissingEngine> missing;
+  for (const NotBuilt& row : std::initializer_list<NotBuilt>{RIGOR_MISSING_ENGINES})
+    missing.push_back({row.name, fmt::format("not built: install {} and build again", row.package)});
+  for (const NamedRow& named : rows()) {
+    if (named.row.how_to_get && !named.row.make())
+      missing.push_back({named.engine, fmt::format("not installed: {}", named.row.how_to_get)});
+  }
+  std::sort(missing.begin(), missing.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return missing;
+}
+
+}  // namespace
+
 const std::vector<MissingEngine>& missing_engines() {
-  static const std::vector<MissingEngine> missing = {RIGOR_MISSING_ENGINES};
+  static const std::vector<MissingEngine> missing = find_missing_engines();
   return missing;
 }
 
 const std::vector<EngineOnRequest>& engines_on_request() {
   static const std::vector<EngineOnRequest> named = {
+      {"mujoco3", "its formulas are those of mujoco, and each cell starts Node, which takes a second"},
       {"siconos", "a case with joints takes it some 20 s, and many with contacts its solver does not bring to its law"},
   };
   return named;

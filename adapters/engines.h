@@ -33,10 +33,10 @@ class EngineTable {
   std::vector<std::string> identities_;
 };
 
-// An engine that Rigor knows and that this build was made without.
+// An engine that Rigor knows, and that this build was made without or that is not installed.
 struct MissingEngine {
   std::string name;
-  std::string package;  // Debian's, for its library
+  std::string how;  // "not built: install libdart-dev and build again"
 };
 const std::vector<MissingEngine>& missing_engines();  // alphabetical
 

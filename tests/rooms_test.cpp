@@ -49,11 +49,13 @@ bool is_table(const std::string& file) { return std::find(kTables.begin(), kTabl
 const Names kNoEngines = {"", "common", "plugin", "faults"};
 
 // Whether a file of adapters/ may include another. An engine sees itself and common/. Siconos, and MuJoCo 3 as the
-// reader of MJCF, run in another process, so they build on plugin/, which has the seam of those.
+// reader of MJCF, run in another process, so they build on plugin/, which has the seam of those. So does the engine
+// MuJoCo 3, which gets the scene as mujoco/ writes it.
 bool is_allowed_adapter(const std::string& from, const std::string& to) {
   const bool is_engine = std::find(kNoEngines.begin(), kNoEngines.end(), from) == kNoEngines.end();
   if (from == to || to == "common") return true;
   if (from == "siconos" || from == "mjcf") return to == "plugin";
+  if (from == "mujoco3") return to == "plugin" || to == "mujoco";
   return !is_engine && from != "common" && to.empty();
 }
 

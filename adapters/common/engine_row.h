@@ -13,7 +13,7 @@
 namespace rigor {
 
 struct EngineRow {
-  std::unique_ptr<Engine> (*make)();
+  std::unique_ptr<Engine> (*make)();  // null where something that the engine needs at run time is not there
   // The core's methods that repeat the engine's scheme (twins); null for none.
   std::vector<Integrator> (*twins)() = nullptr;
   // See engine_calls() in adapters/engines.h; null for none.
@@ -21,6 +21,8 @@ struct EngineRow {
   // The engine's own format of models, see adapters/models.h; null for none.
   CompiledMjcf (*read_model)(const MjcfSource& source) = nullptr;
   std::string (*write_model)(const Scene& scene, LeftOut& left_out) = nullptr;
+  // How to get an engine that make() has not made, to be read after "not installed: ".
+  const char* how_to_get = nullptr;
 };
 
 template <typename Kind>

@@ -56,45 +56,51 @@ MethodInfo rk4() {
 
 }  // namespace
 
+Features mujoco_features() {
+  return joined(kMujocoContacts, {Feature::placed_shapes,
+                                  Feature::contact_filter,
+                                  Feature::spring,
+                                  Feature::timed_force,
+                                  Feature::fixed_body,
+                                  Feature::friction_none,
+                                  Feature::friction_coulomb,
+                                  Feature::restitution,
+                                  Feature::rolling_friction,
+                                  Feature::torsional_friction,
+                                  joint_feature<BallJoint>(),
+                                  joint_feature<CompoundJoint>(),
+                                  joint_feature<CylindricalJoint>(),
+                                  joint_feature<DistanceJoint>(),
+                                  joint_feature<FixedJoint>(),
+                                  joint_feature<HingeJoint>(),
+                                  joint_feature<PlanarJoint>(),
+                                  joint_feature<ScrewJoint>(),
+                                  joint_feature<SliderJoint>(),
+                                  joint_feature<UniversalJoint>(),
+                                  Feature::armature,
+                                  Feature::coupling,
+                                  Feature::joint_spring,
+                                  Feature::joint_damper,
+                                  Feature::joint_friction,
+                                  Feature::joint_limit,
+                                  Feature::joint_limit_beyond_half_turn,
+                                  Feature::joint_limit_of_compound_slider,
+                                  Feature::joints_with_contacts,
+                                  Feature::joints_with_dampers,
+                                  Feature::motor_effort,
+                                  Feature::motor_servo,
+                                  Feature::motor_table});
+}
+
+std::vector<MethodInfo> mujoco_methods() { return {euler(), implicit(), rk4()}; }
+
 EngineInfo MujocoEngine::info() const {
   const int version = mj_version();  // 222 is 2.2.2
   return {.name = "mujoco",
           .version = fmt::format("{}.{}.{}", version / 100, version / 10 % 10, version % 10),
           .precision = sizeof(mjtNum) == sizeof(double) ? "double" : "single",
-          .features = joined(kMujocoContacts, {Feature::placed_shapes,
-                                               Feature::contact_filter,
-                                               Feature::spring,
-                                               Feature::timed_force,
-                                               Feature::fixed_body,
-                                               Feature::friction_none,
-                                               Feature::friction_coulomb,
-                                               Feature::restitution,
-                                               Feature::rolling_friction,
-                                               Feature::torsional_friction,
-                                               joint_feature<BallJoint>(),
-                                               joint_feature<CompoundJoint>(),
-                                               joint_feature<CylindricalJoint>(),
-                                               joint_feature<DistanceJoint>(),
-                                               joint_feature<FixedJoint>(),
-                                               joint_feature<HingeJoint>(),
-                                               joint_feature<PlanarJoint>(),
-                                               joint_feature<ScrewJoint>(),
-                                               joint_feature<SliderJoint>(),
-                                               joint_feature<UniversalJoint>(),
-                                               Feature::armature,
-                                               Feature::coupling,
-                                               Feature::joint_spring,
-                                               Feature::joint_damper,
-                                               Feature::joint_friction,
-                                               Feature::joint_limit,
-                                               Feature::joint_limit_beyond_half_turn,
-                                               Feature::joint_limit_of_compound_slider,
-                                               Feature::joints_with_contacts,
-                                               Feature::joints_with_dampers,
-                                               Feature::motor_effort,
-                                               Feature::motor_servo,
-                                               Feature::motor_table}),
-          .methods = {euler(), implicit(), rk4()}};
+          .features = mujoco_features(),
+          .methods = mujoco_methods()};
 }
 
 std::unique_ptr<World> MujocoEngine::load(const Scene& scene, const Settings& settings) const {

@@ -7,6 +7,10 @@
 
 namespace rigor {
 
+// What a MuJoCo of either version expresses, and its methods.
+Features mujoco_features();
+std::vector<MethodInfo> mujoco_methods();
+
 class MujocoEngine : public Engine {
  public:
   EngineInfo info() const override;

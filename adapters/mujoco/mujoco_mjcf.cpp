@@ -102,7 +102,7 @@ class Writer {
 
   void write_options() {
     static const std::map<std::string, std::string> kIntegrators = {
-        {"euler", "Euler"}, {"implicit", "implicit"}, {"rk4", "RK4"}};
+        {"euler", "Euler"}, {"implicit", "implicit"}, {"implicitfast", "implicitfast"}, {"rk4", "RK4"}};
     add(R"(<option gravity="{}" integrator="{}")", text_of(scene_.gravity), kIntegrators.at(settings_.method));
     const bool matched = settings_.track == Track::matched;
     if (const auto cone = word_to_set(settings_, kMujocoCone)) add(R"( cone="{}")", *cone);

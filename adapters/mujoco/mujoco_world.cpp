@@ -6,9 +6,8 @@
 #include <limits>
 
 #include "adapters/mujoco/mujoco_mjcf.h"
-#include "adapters/mujoco/mujoco_options.h"
+#include "adapters/mujoco/mujoco_values.h"
 #include "core/dynamics/model/loads/loads.h"
-#include "core/engine/option_values.h"
 
 namespace rigor {
 namespace {
@@ -31,65 +30,6 @@ std::vector<Motor> motors_of_effort(const Scene& scene) {
   return motors;
 }
 
-// A constraint's acceleration towards its rest is -b v - k r (negative solref means k and b themselves). Of a loop a
-// gap and its speed are gone after one step: k = 1/dt², b = 1/dt.
-constexpr mjtNum kImpedance[mjNIMP] = {0.9999, 0.9999, 0.001, 0.5, 1};  // nearly the whole of that acceleration
-
-void stiffen_loops(mjModel& model, double dt) {
-  for (int i = 0; i < model.neq; ++i) {
-    model.eq_solref[mjNREF * i] = -1 / (dt * dt), model.eq_solref[mjNREF * i + 1] = -1 / dt;
-    std::copy(kImpedance, kImpedance + mjNIMP, model.eq_solimp + mjNIMP * i);
-  }
-}
-
-// A limit stops the motion within a step. The small overshoot remains and falls with the step. Pushing it back would
-// add a speed that stays, and a stop without restitution would bounce.
-void stiffen_limits(mjModel& model, double dt) {
-  for (int i = 0; i < model.njnt; ++i) {
-    if (!model.jnt_limited[i]) continue;
-    model.jnt_solref[mjNREF * i] = 0, model.jnt_solref[mjNREF * i + 1] = -1 / dt;
-    std::copy(kImpedance, kImpedance + mjNIMP, model.jnt_solimp + mjNIMP * i);
-  }
-}
-
-// A joint's friction ends its speed within a step. Its softness still lets the joint creep under a load.
-void stiffen_friction(mjModel& model, double dt) {
-  for (int i = 0; i < model.nv; ++i) {
-    if (model.dof_frictionloss[i] == 0) continue;
-    model.dof_solref[mjNREF * i] = 0, model.dof_solref[mjNREF * i + 1] = -1 / dt;
-    std::copy(kImpedance, kImpedance + mjNIMP, model.dof_solimp + mjNIMP * i);
-  }
-}
-
-// Contacts keep the shipped time constant (0.02 s, at least 2 dt). Friction that ends a slide at once would press the
-// bodies apart, and they would hop. Only the share of the law's acceleration is changed: the shipped 0.9 lets bodies
-// creep down slopes that should hold them. With 0.9999 the solver's line search sometimes fails.
-constexpr mjtNum kContactImpedance = 0.999;
-
-// Writes `value` into the place `at` of each row, of `count` rows of a contact's parameters.
-void set_each(mjtNum* rows, int count, int length, int at, double value) {
-  for (int i = 0; i < count; ++i) rows[length * i + at] = value;
-}
-
-// A named option changes the shipped contacts on either track.
-void set_contacts(mjModel& model, const Settings& settings) {
-  const auto set = [&](mjtNum* of_geoms, mjtNum* of_pairs, int length, int at, double value) {
-    set_each(of_geoms, model.ngeom, length, at, value), set_each(of_pairs, model.npair, length, at, value);
-  };
-  if (settings.track == Track::matched) {
-    for (const int at : {0, 1}) set(model.geom_solimp, model.pair_solimp, mjNIMP, at, kContactImpedance);
-  }
-  const auto set_if_named = [&](const OptionInfo& option, mjtNum* of_geoms, mjtNum* of_pairs, int length, int at) {
-    if (is_named(settings, option)) set(of_geoms, of_pairs, length, at, number_option(settings, option));
-  };
-  set_if_named(kMujocoContactTime, model.geom_solref, model.pair_solref, mjNREF, 0);
-  set_if_named(kMujocoContactDamping, model.geom_solref, model.pair_solref, mjNREF, 1);
-  set_if_named(kMujocoContactStart, model.geom_solimp, model.pair_solimp, mjNIMP, 0);
-  set_if_named(kMujocoContactDeep, model.geom_solimp, model.pair_solimp, mjNIMP, 1);
-  set_if_named(kMujocoContactWidth, model.geom_solimp, model.pair_solimp, mjNIMP, 2);
-  set_if_named(kMujocoContactMargin, model.geom_margin, model.pair_margin, 1, 0);
-}
-
 std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
   return fmt::format("solref {:g} {:g}, solimp {:g} {:g} {:g}", solref[0], solref[1], solimp[0], solimp[1], solimp[2]);
 }
@@ -108,7 +48,7 @@ MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
       is_jointed_(!scene.joints.empty()),
       said_(scene, tree_, settings.method) {
   if (!data_) throw std::runtime_error("MuJoCo has no memory for the scene's contacts and constraints");
-  set_contacts(*made_.model, settings);
+  mujoco_set(*made_.model, mujoco_contact_values(settings));
   // Constants that follow from the inertias, worked out at the pose of t = 0, which the data then holds again.
   mj_setConst(made_.model.get(), data_.get());
   mj_resetData(made_.model.get(), data_.get());
@@ -140,7 +80,7 @@ void MujocoWorld::step(double dt) {
   if (!lost_) {
     made_.model->opt.timestep = dt;
     if (matched_ && dt != stiff_dt_) {
-      stiffen_loops(*made_.model, dt), stiffen_limits(*made_.model, dt), stiffen_friction(*made_.model, dt);
+      mujoco_set(*made_.model, mujoco_stiff_values(), dt);
       stiff_dt_ = dt;
     }
     apply_loads(dt);

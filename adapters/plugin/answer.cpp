@@ -47,6 +47,45 @@ void check_echo(const Json& answer, const char* key, const Json& due, const Ques
     refuse_answer(asked, fmt::format("its {} is {}, and {} was asked", key, in_quotes(dumped(*found)), dumped(due)));
 }
 
+// One of a list that an answer holds. `what`: how messages call it.
+struct ListEntry {
+  const Json& json;
+  std::string what;
+  const Question& asked;
+
+  [[noreturn]] void refuse(const char* key, const char* due) const {
+    refuse_answer(asked, fmt::format("{} of {} is {}; {} is due", key, what,
+                                     find(key) ? in_quotes(dumped(*find(key))) : "not there", due));
+  }
+  const Json* find(const char* key) const {
+    const auto found = json.find(key);
+    return json.is_object() && found != json.end() ? &*found : nullptr;
+  }
+  int body(const char* key) const {
+    const Json* found = find(key);
+    if (!found || !found->is_number_integer()) refuse(key, "the number of a body");
+    return found->get<int>();
+  }
+  double number(const char* key) const {
+    const Json* found = find(key);
+    if (!found || !found->is_number()) refuse(key, "a finite number");
+    return found->get<double>();
+  }
+  Vec3 vector(const char* key) const {
+    const Json* found = find(key);
+    const bool is_vector = found && found->is_array() && found->size() == 3 && (*found)[0].is_number() &&
+                           (*found)[1].is_number() && (*found)[2].is_number();
+    if (!is_vector) refuse(key, "a list of three finite numbers");
+    return {(*found)[0].get<double>(), (*found)[1].get<double>(), (*found)[2].get<double>()};
+  }
+};
+
+const Json& list_in(const Json& answer, const char* key, const Question& asked) {
+  const auto list = answer.find(key);
+  if (list == answer.end() || !list->is_array()) refuse_answer(asked, fmt::format("its {} are no list", key));
+  return *list;
+}
+
 }  // namespace
 
 void refuse_answer(const Question& asked, const std::string& fault) {
@@ -95,33 +134,28 @@ void read_bodies(const Json& answer, const Question& asked, MutableBodyColumns i
 }
 
 std::vector<ReportedContact> read_contacts(const Json& answer, const Question& asked) {
-  const auto list = answer.find("contacts");
-  if (list == answer.end() || !list->is_array()) refuse_answer(asked, "its contacts are no list");
   std::vector<ReportedContact> contacts;
-  for (const Json& entry : *list) {
-    const auto refuse = [&](const char* key, const char* due) {
-      refuse_answer(
-          asked,
-          fmt::format("{} of contact {} is {}; {} is due", key, contacts.size(),
-                      entry.is_object() && entry.contains(key) ? in_quotes(dumped(entry[key])) : "not there", due));
-    };
-    const auto value = [&](const char* key) { return entry.is_object() && entry.contains(key) ? entry[key] : Json(); };
-    const auto body = [&](const char* key) {
-      if (!value(key).is_number_integer()) refuse(key, "the number of a body");
-      return value(key).get<int>();
-    };
-    const auto vector = [&](const char* key) {
-      const Json found = value(key);
-      const bool is_vector =
-          found.is_array() && found.size() == 3 && found[0].is_number() && found[1].is_number() && found[2].is_number();
-      if (!is_vector) refuse(key, "a list of three finite numbers");
-      return Vec3(found[0].get<double>(), found[1].get<double>(), found[2].get<double>());
-    };
-    if (!value("gap").is_number()) refuse("gap", "a finite number");
-    contacts.push_back(
-        {body("a"), body("b"), vector("point"), vector("normal"), value("gap").get<double>(), vector("force")});
+  for (const Json& json : list_in(answer, "contacts", asked)) {
+    const ListEntry entry{json, fmt::format("contact {}", contacts.size()), asked};
+    contacts.push_back({entry.body("a"), entry.body("b"), entry.vector("point"), entry.vector("normal"),
+                        entry.number("gap"), entry.vector("force")});
   }
   return contacts;
+}
+
+std::vector<ReportedReaction> read_reactions(const Json& answer, const Question& asked, std::size_t joints,
+                                             std::size_t bodies) {
+  const Json& list = list_in(answer, "reactions", asked);
+  if (list.size() != joints)
+    refuse_answer(asked, fmt::format("its reactions are {}; one for each of {} joints is due", list.size(), joints));
+  std::vector<ReportedReaction> reactions;
+  for (const Json& json : list) {
+    const ListEntry entry{json, fmt::format("reaction {}", reactions.size()), asked};
+    reactions.push_back({entry.body("body"), entry.vector("force"), entry.vector("torque")});
+    const int body = reactions.back().body;
+    if (body < 0 || static_cast<std::size_t>(body) >= bodies) entry.refuse("body", "the number of a body");
+  }
+  return reactions;
 }
 
 void check_time(const Json& answer, const Question& asked, double due, double dt) {

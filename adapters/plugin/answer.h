@@ -39,6 +39,10 @@ void read_bodies(const Json& answer, const Question& asked, MutableBodyColumns i
 // Reads "contacts". Throws EngineFailure (invalid) for one with a missing key, or a value of another type or size.
 std::vector<ReportedContact> read_contacts(const Json& answer, const Question& asked);
 
+// Reads "reactions": one for each of the joints, of a body of the scene. Throws EngineFailure (invalid) likewise.
+std::vector<ReportedReaction> read_reactions(const Json& answer, const Question& asked, std::size_t joints,
+                                             std::size_t bodies);
+
 // Checks "time" [s]: the expected time after so many steps, up to roundings of a clock in single precision.
 void check_time(const Json& answer, const Question& asked, double due, double dt);
 

@@ -212,6 +212,7 @@ PluginInfo read_plugin_info(const std::string& line, const std::string& what) {
   const std::vector<std::string> calls = table.texts("calls");
   const auto answers = [&](const char* call) { return std::find(calls.begin(), calls.end(), call) != calls.end(); };
   info.can_run = answers("run"), info.has_contacts = answers("contacts");
+  info.has_reactions = answers("reactions");
   info.has_state = answers("save") && answers("restore");
   info.has_columns = table.find("columns") != nullptr;
   if (info.has_columns && table.text("columns") != "f64le")

@@ -11,12 +11,13 @@ namespace rigor {
 inline constexpr int kProtocolVersion = 1;
 
 struct PluginInfo {
-  EngineInfo engine;          // its features with those that `wrench` gives it
-  Features declared;          // by itself
-  bool can_run = false;       // answers `run`: many steps in one request
-  bool has_state = false;     // answers `save` and `restore`
-  bool has_contacts = false;  // answers `contacts`: the contact forces of the last step
-  bool has_columns = false;   // may answer with raw doubles
+  EngineInfo engine;           // its features with those that `wrench` gives it
+  Features declared;           // by itself
+  bool can_run = false;        // answers `run`: many steps in one request
+  bool has_state = false;      // answers `save` and `restore`
+  bool has_contacts = false;   // answers `contacts`: the contact forces of the last step
+  bool has_reactions = false;  // answers `reactions`: the loads of joints in the last step
+  bool has_columns = false;    // may answer with raw doubles
 };
 
 // The line of an answer to `info`. `what`: how messages call the plug-in. Throws InputError.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "adapters/common/option_values.h"
-#include "adapters/plugin/process_world.h"
 #include "core/engine/engine_failure.h"
 
 namespace rigor {
@@ -18,7 +17,8 @@ ProcessEngine::ProcessEngine(PluginStart start) : start_(std::move(start)) {
   }
 }
 
-ProcessEngine::ProcessEngine(PluginStart start, PluginInfo info) : start_(std::move(start)), info_(std::move(info)) {}
+ProcessEngine::ProcessEngine(PluginStart start, PluginInfo info)
+    : start_(std::move(start)), info_(std::move(info)), is_known_(true) {}
 
 ProcessEngine::~ProcessEngine() = default;
 
@@ -30,12 +30,18 @@ std::unique_ptr<World> ProcessEngine::load(const Scene& scene, const Settings& s
     } catch (const InputError& error) {
       throw EngineFailure(FailureKind::invalid, error.what());
     }
-    const std::string& now = session_->info().engine.name;
-    if (now != info_.engine.name)
-      throw EngineFailure(FailureKind::invalid, fmt::format("{} called itself '{}' before and '{}' now",
-                                                            session_->child().name(), info_.engine.name, now));
+    const EngineInfo &due = info_.engine, &now = session_->info().engine;
+    if (now.name != due.name || now.version != due.version)
+      throw EngineFailure(FailureKind::invalid,
+                          fmt::format("{} called itself '{} {}' before and '{} {}' now", session_->child().name(),
+                                      due.name, due.version, now.name, now.version));
+    if (is_known_) session_->describe(info_);
   }
-  return std::make_unique<ProcessWorld>(session_, scene, settings);
+  return std::make_unique<ProcessWorld>(session_, scene, settings, terms_of(scene, settings));
+}
+
+WorldTerms ProcessEngine::terms_of(const Scene&, const Settings&) const {
+  return {"", info_.has_contacts, info_.has_reactions};
 }
 
 void ProcessEngine::rest() const { session_.reset(); }

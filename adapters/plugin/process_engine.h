@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "adapters/plugin/process_session.h"
+#include "adapters/plugin/process_world.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
@@ -24,9 +24,14 @@ class ProcessEngine : public Engine {
   bool is_remote() const override { return true; }
   void rest() const override;
 
+ protected:
+  // What an engine with a known description gets beside the scene, and what its worlds report.
+  virtual WorldTerms terms_of(const Scene&, const Settings&) const;
+
  private:
   PluginStart start_;
   PluginInfo info_;
+  bool is_known_ = false;                            // the description was given, and is not the process's
   mutable std::shared_ptr<ProcessSession> session_;  // none until it is needed
 };
 

@@ -58,10 +58,11 @@ void ProcessSession::checked(const Read& read) {
   }
 }
 
-int ProcessSession::load(const Scene& scene, const Settings& settings, SettingsInForce& in_force) {
+int ProcessSession::load(const Scene& scene, const Settings& settings, const std::string& beside,
+                         SettingsInForce& in_force) {
   const int world = ++worlds_;
-  const std::string line = fmt::format(R"({{"call":"load","world":{},"scene":{},"settings":{}}})", world,
-                                       scene_json(scene), settings_json(info_, settings));
+  const std::string line = fmt::format(R"({{"call":"load","world":{},"scene":{},"settings":{}{}}})", world,
+                                       scene_json(scene), settings_json(info_, settings), beside);
   const Json answer = ask(line, "load", kShortAnswer, world);
   const auto told = answer.find("settings");
   if (told == answer.end() || !told->is_object()) return world;
@@ -141,6 +142,15 @@ std::vector<ReportedContact> ProcessSession::contacts(int world) {
   std::vector<ReportedContact> contacts;
   checked([&] { contacts = read_contacts(answer, {child_->name(), "contacts", world}); });
   return contacts;
+}
+
+std::vector<ReportedReaction> ProcessSession::reactions(int world, std::size_t joints, std::size_t bodies) {
+  const Question asked = asked_of(child_->name(), "reactions", world);
+  const Json answer = ask(fmt::format(R"({{"call":"reactions","world":{}}})", world), "reactions",
+                          kShortAnswer + kLongestRow * joints, world);
+  std::vector<ReportedReaction> reactions;
+  checked([&] { reactions = read_reactions(answer, asked, joints, bodies); });
+  return reactions;
 }
 
 std::string ProcessSession::save(int world) {

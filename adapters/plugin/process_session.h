@@ -26,17 +26,22 @@ class ProcessSession {
   explicit ProcessSession(const PluginStart& start);
 
   const PluginInfo& info() const { return info_; }
+  // Takes a fuller description than the process gave.
+  void describe(PluginInfo info) { info_ = std::move(info); }
   const ChildProcess& child() const { return *child_; }
   bool is_usable() const { return is_sound_ && child_->is_ours(); }
 
   // Each throws EngineFailure; after one that is not `unsupported` or `diverged` no other request makes sense.
-  int load(const Scene& scene, const Settings& settings, SettingsInForce& in_force);  // the number of a new world
-  void step(int world, double dt, const std::vector<double>& wrenches);               // none: no wrenches
+  // Returns the number of a new world. `beside`: further keys of the request, each with a comma in front.
+  int load(const Scene& scene, const Settings& settings, const std::string& beside, SettingsInForce& in_force);
+  void step(int world, double dt, const std::vector<double>& wrenches);  // none: no wrenches
   void read(int world, double due, double dt, MutableBodyColumns into);
   // `count` steps, of which each `every`-th, and the last, is sampled into one of the tables; `begin`: s.
   void run(int world, double begin, double dt, long count, long every, std::vector<KeptBodies>& samples);
   std::vector<ReportedContact> contacts(int world);  // of its last step
-  std::string save(int world);                       // what the engine makes of its state
+  // Of its last step, for each joint. The first request comes before the first step, and asks for reports.
+  std::vector<ReportedReaction> reactions(int world, std::size_t joints, std::size_t bodies);
+  std::string save(int world);  // what the engine makes of its state
   void restore(int world, const std::string& snapshot);
   void unload(int world);
   // The engine's message about its last step or run: why it is less accurate than the method promises.

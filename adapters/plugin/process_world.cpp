@@ -18,14 +18,16 @@ constexpr double kMostBytes = 8e6, kBytesOfBody = 260;
 
 }  // namespace
 
-ProcessWorld::ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings)
+ProcessWorld::ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings,
+                           WorldTerms terms)
     : session_(std::move(session)),
       owner_(session_->info().engine.name, session_->info().engine.version, scene, settings),
       scene_(scene),
       settings_(settings),
+      terms_(std::move(terms)),
       loads_(scene, session_->info()),
       state_(scene.bodies.size()) {
-  world_ = session_->load(scene_, settings_, in_force_);
+  world_ = session_->load(scene_, settings_, terms_.beside_scene, in_force_);
   if (!loads_.empty())
     in_force_.emplace_back("wrenches", "springs, dampers and timed forces by Rigor, held over a step");
   if (in_force_.empty()) in_force_.emplace_back("settings", "the engine tells of none");
@@ -40,7 +42,7 @@ ProcessWorld::~ProcessWorld() {
 }
 
 void ProcessWorld::expect(double dt, long steps, long every) {
-  const bool can = session_->info().can_run && !asks_for_contacts_ && loads_.empty() && lost_why_.empty();
+  const bool can = session_->info().can_run && !asks_for_reports_ && loads_.empty() && lost_why_.empty();
   ahead_ = {};
   if (can) ahead_.dt = dt, ahead_.left = steps, ahead_.every = every;
 }
@@ -99,7 +101,7 @@ void ProcessWorld::go_back_and_step() {
   assert(steps_are_equal_ && (steps_ == 0 || last_dt_ == dt) && "announced at the start, or after equal steps");
   session_->unload(world_);
   SettingsInForce again;
-  world_ = session_->load(scene_, settings_, again);
+  world_ = session_->load(scene_, settings_, terms_.beside_scene, again);
   for (long n = 0; n < steps_; ++n) session_->step(world_, dt, {});
 }
 
@@ -113,6 +115,16 @@ void ProcessWorld::lose(const std::string& why, int body) const {
 std::vector<ReportedContact> ProcessWorld::contacts() const {
   if (steps_ == 0 || !lost_why_.empty()) return {};
   return session_->contacts(world_);
+}
+
+void ProcessWorld::ask_for_reactions() {
+  asks_for_reports_ = true, ahead_ = {};
+  session_->reactions(world_, 0, bodies());
+}
+
+std::vector<ReportedReaction> ProcessWorld::reactions() const {
+  if (steps_ == 0 || !lost_why_.empty()) return {};
+  return session_->reactions(world_, scene_.joints.size(), bodies());
 }
 
 std::unique_ptr<SavedState> ProcessWorld::save() const {

@@ -10,9 +10,19 @@
 
 namespace rigor {
 
-class ProcessWorld : public World, public RemoteRuns, public ReportsContacts, public SavesState {
+// What one world of an engine gets and reports, beyond the engine's description.
+struct WorldTerms {
+  std::string beside_scene;  // further keys of the request to load it, each with a comma in front
+  bool has_contacts, has_reactions;
+};
+
+class ProcessWorld : public World,
+                     public RemoteRuns,
+                     public ReportsContacts,
+                     public ReportsReactions,
+                     public SavesState {
  public:
-  ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings);
+  ProcessWorld(std::shared_ptr<ProcessSession> session, const Scene& scene, const Settings& settings, WorldTerms terms);
   ~ProcessWorld() override;
 
   void step(double dt) override;
@@ -21,14 +31,17 @@ class ProcessWorld : public World, public RemoteRuns, public ReportsContacts, pu
   std::string solver_warning() const override { return lost_why_.empty() ? warning_ : lost_why_; }
   Capabilities capabilities() override {
     return {.remote = this,
-            .contacts = session_->info().has_contacts ? this : nullptr,
+            .reactions = terms_.has_reactions ? this : nullptr,
+            .contacts = terms_.has_contacts ? this : nullptr,
             .state = session_->info().has_state && loads_.empty() ? this : nullptr};
   }
   std::unique_ptr<SavedState> save() const override;
   void restore(const SavedState& state) override;
   // A run of many steps reports the last of them alone, so each step is its own request from now on.
-  void ask_for_contacts() override { asks_for_contacts_ = true, ahead_ = {}; }
+  void ask_for_contacts() override { asks_for_reports_ = true, ahead_ = {}; }
   std::vector<ReportedContact> contacts() const override;
+  void ask_for_reactions() override;
+  std::vector<ReportedReaction> reactions() const override;
   void expect(double dt, long steps, long every) override;
   double remote_cpu_seconds() const override {
     return session_->child().cpu_seconds() - session_->child().looked_for();
@@ -56,6 +69,7 @@ class ProcessWorld : public World, public RemoteRuns, public ReportsContacts, pu
   StateOwner owner_;
   const Scene scene_;
   const Settings settings_;
+  const WorldTerms terms_;
   RigorLoads loads_;
   SettingsInForce in_force_;
   int world_ = 0;
@@ -63,7 +77,7 @@ class ProcessWorld : public World, public RemoteRuns, public ReportsContacts, pu
   double last_dt_ = 0;
   long steps_ = 0;
   bool steps_are_equal_ = true;  // all so far were of last_dt_
-  bool asks_for_contacts_ = false;
+  bool asks_for_reports_ = false;
   Ahead ahead_;
   mutable BodyTable state_;
   mutable bool is_read_ = false;  // state_ is current

@@ -183,6 +183,11 @@ void GridRequest::declare(Options& options) {
 }
 
 RunName run_of_option(const std::string& value, const std::vector<EngineInfo>& infos) {
+  const std::string engine = value.substr(0, value.find_first_of(":,@"));
+  const auto has_name = [&](const auto& row) { return row.name == engine; };
+  const auto missing = std::find_if(missing_engines().begin(), missing_engines().end(), has_name);
+  if (missing != missing_engines().end() && std::none_of(infos.begin(), infos.end(), has_name))
+    throw InputError(fmt::format("--engine: {} is {}", engine, missing->how));
   try {
     return parse_run_name(value, infos);
   } catch (const InputError& error) {

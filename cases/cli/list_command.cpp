@@ -59,8 +59,7 @@ Rows engine_rows(const std::string&, const EngineTable& engines) {
         rows.emplace_back("  " + row.name, fmt::format("runs where it is named, --engine {}: {}", row.name, row.why));
     }
   }
-  for (const MissingEngine& engine : missing_engines())
-    rows.emplace_back(engine.name, fmt::format("not built: install {} and build again", engine.package));
+  for (const MissingEngine& engine : missing_engines()) rows.emplace_back(engine.name, engine.how);
   return rows;
 }
 

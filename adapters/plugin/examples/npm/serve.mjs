@@ -1,7 +1,8 @@
 // Shared code of this folder's engines: the protocol's loop over an engine { info, load(scene, settings) }, whose load
-// returns a world { step(dt, wrenches), rows(), settings, free() }, and helpers for conversions. A world with contacts()
-// returns the contact forces of its last step. One with save() returns all that its next steps depend on, as bytes, and
-// restore(bytes) goes back to it.
+// returns a world { step(dt, wrenches), rows(), settings, free() }, and helpers for conversions. step() may return a text:
+// why the step is less accurate than the method promises. A world with contacts() returns the contact forces of its last
+// step, one with reactions() the loads of its joints. One with save() returns all that its next steps depend on, as bytes,
+// and restore(bytes) goes back to it.
 import { readSync, writeSync } from "node:fs";
 
 // What an engine or its runtime prints must not get among the answers. Import this before the engine.
@@ -13,13 +14,14 @@ export class Diverged extends Error {}
 const diverged = (time) => ({ ok: false, status: "diverged", why: "a number is not finite", time });
 
 const calls = {
-  load({ engine, worlds }, { world, scene, settings }) {
-    worlds.set(world, { time: 0, of: engine.load(scene, settings) });
+  load({ engine, worlds }, { world, scene, settings, ...beside }) {
+    worlds.set(world, { time: 0, of: engine.load(scene, settings, beside) });
     return { ok: true, settings: worlds.get(world).of.settings };
   },
   step({ worlds }, { world, dt, wrenches }) {
-    worlds.get(world).of.step(dt, wrenches), (worlds.get(world).time += dt);
-    return { ok: true };
+    const warning = worlds.get(world).of.step(dt, wrenches);
+    worlds.get(world).time += dt;
+    return warning ? { ok: true, warning } : { ok: true };
   },
   read({ worlds }, { world }) {
     const { time, of } = worlds.get(world), bodies = of.rows();
@@ -27,6 +29,9 @@ const calls = {
   },
   contacts({ worlds }, { world }) {
     return { ok: true, contacts: worlds.get(world).of.contacts() };
+  },
+  reactions({ worlds }, { world }) {
+    return { ok: true, reactions: worlds.get(world).of.reactions() };
   },
   save({ worlds }, { world }) {
     const { time, of } = worlds.get(world);
@@ -39,14 +44,16 @@ const calls = {
   },
   run(state, { world, dt, count, every }) {
     const samples = [];
+    let told;
     for (let n = 1; n <= count; ++n) {
-      calls.step(state, { world, dt });
+      const { warning } = calls.step(state, { world, dt });
+      told ??= warning;
       if (n % every !== 0 && n !== count) continue;
       const { ok, time, bodies } = calls.read(state, { world });
       if (!ok) return diverged(time);
       samples.push({ time, bodies });
     }
-    return { ok: true, samples };
+    return told ? { ok: true, samples, warning: told } : { ok: true, samples };
   },
   unload({ worlds }, { world }) {
     worlds.get(world).of.free?.(), worlds.delete(world);
