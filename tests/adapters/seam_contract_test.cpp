@@ -227,8 +227,9 @@ BOOST_AUTO_TEST_CASE(a_timed_force_gives_its_exact_impulse_when_its_bounds_fall_
     // MuJoCo's Runge-Kutta method carries the angular velocity in a body frame, and adds the rotations as if they
     // commuted. Siconos takes the mean of the torques in the body's frame at both ends. Both errors are of second
     // order.
-    const bool adds_turns = run.name().starts_with("mujoco:rk4") || run.name().starts_with("core:mujoco-rk4") ||
-                            run.name().starts_with("siconos") || run.name().starts_with("core:siconos");
+    const bool adds_turns = run.name().starts_with("mujoco:rk4") || run.name().starts_with("mujoco3:rk4") ||
+                            run.name().starts_with("core:mujoco-rk4") || run.name().starts_with("siconos") ||
+                            run.name().starts_with("core:siconos");
     BOOST_TEST((found.angular_velocity - angular_velocity).norm() < (adds_turns ? 1e-5 : 1e-13));
   });
 }
