@@ -60,14 +60,27 @@ FrontierPoint point_of(const StepSize& dt, const std::vector<Outcome>& outcomes)
   return point;
 }
 
-std::vector<FrontierPoint> points_of(const Results& results, const std::string& family, std::size_t run) {
-  std::map<double, std::pair<StepSize, std::vector<Outcome>>, std::greater<>> by_step;
+// A case that counts, and its main error, which takes a look at all its cells.
+struct JudgedCase {
+  const CaseResult* result;
+  std::string metric;
+};
+
+std::vector<JudgedCase> judged_cases(const Results& results, const std::string& family) {
+  std::vector<JudgedCase> judged;
   for (const CaseResult& result : results.cases) {
-    if (!has_main_error_of_truth(result) || (!family.empty() && !result.definition.id.starts_with(family + "/")))
-      continue;
-    for (const Cell& cell : result.cells) {
+    if (!family.empty() && !result.definition.id.starts_with(family + "/")) continue;
+    if (has_main_error_of_truth(result)) judged.push_back({&result, main_error(result)});
+  }
+  return judged;
+}
+
+std::vector<FrontierPoint> points_of(const std::vector<JudgedCase>& cases, std::size_t run) {
+  std::map<double, std::pair<StepSize, std::vector<Outcome>>, std::greater<>> by_step;
+  for (const auto& [result, metric] : cases) {
+    for (const Cell& cell : result->cells) {
       if (cell.run != run) continue;
-      const std::optional<Outcome> outcome = outcome_of(result, cell, main_error(result));
+      const std::optional<Outcome> outcome = outcome_of(*result, cell, metric);
       if (!outcome) continue;
       auto& [dt, outcomes] = by_step[cell.dt.seconds];
       dt = cell.dt, outcomes.push_back(*outcome);
@@ -142,10 +155,11 @@ bool is_any_timed(const std::vector<Frontier>& frontiers) {
 }  // namespace
 
 std::vector<Frontier> frontiers(const Results& results, const std::string& family) {
+  const std::vector<JudgedCase> judged = judged_cases(results, family);
   std::vector<Frontier> all;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
     Frontier frontier{run, is_reference_method(results, run), unsupported_cases(results, family, run),
-                      points_of(results, family, run)};
+                      points_of(judged, run)};
     if (!frontier.points.empty()) all.push_back(std::move(frontier));
   }
   leave_out_sparse_steps(all);

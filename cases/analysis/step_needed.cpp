@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cases/analysis/cell_error.h"
 
@@ -68,15 +69,15 @@ std::optional<StepNeeded> step_needed(const CaseResult& result, std::size_t run,
 }
 
 std::vector<StepOverCases> steps_over_cases(const Results& results, double tolerance) {
-  std::vector<const CaseResult*> judged;
+  std::vector<std::pair<const CaseResult*, std::string>> judged;  // with the main error
   for (const CaseResult& result : results.cases) {
-    if (has_main_error_of_truth(result)) judged.push_back(&result);
+    if (has_main_error_of_truth(result)) judged.emplace_back(&result, main_error(result));
   }
   std::vector<StepOverCases> all;
   for (std::size_t run = 0; run < results.runs.size(); ++run) {
     std::vector<StepNeeded> steps;
-    for (const CaseResult* result : judged) {
-      const auto step = step_needed(*result, run, main_error(*result), tolerance);
+    for (const auto& [result, metric] : judged) {
+      const auto step = step_needed(*result, run, metric, tolerance);
       if (step) steps.push_back(*step);
     }
     if (steps.empty() || 2 * steps.size() < judged.size()) continue;

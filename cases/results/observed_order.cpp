@@ -55,8 +55,9 @@ double error_floor(const CaseResult& result) {
 
 std::vector<ErrorPoint> error_points(const CaseResult& result, std::size_t run, const std::string& metric) {
   const bool is_held_to_itself = std::any_of(result.cells.begin(), result.cells.end(), [&](const Cell& cell) {
+    if (cell.run != run) return false;
     const MetricValue* error = value_of(cell, metric);
-    return cell.run == run && error && error->is_held_to_itself;
+    return error && error->is_held_to_itself;
   });
   if (is_held_to_itself) return {};
   std::vector<ErrorPoint> points = all_points(result, run, metric);

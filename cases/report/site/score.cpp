@@ -15,9 +15,8 @@ bool is_of_family(const CaseResult& result, const std::string& family) {
 }
 
 // Infinite for a cell that failed; none where there is nothing to compare.
-std::optional<double> error_of(const CaseResult& result, const Cell& cell) {
-  if (!has_main_error_of_truth(result)) return {};
-  const MainErrorOfCell error = main_error_of(result, cell, main_error(result));
+std::optional<double> error_of(const CaseResult& result, const Cell& cell, const std::string& metric) {
+  const MainErrorOfCell error = main_error_of(result, cell, metric);
   if (error.kind == MainErrorOfCell::Kind::none) return {};
   const bool has_failed = error.kind == MainErrorOfCell::Kind::failed || is_wrong_as_a_whole(cell);
   return has_failed ? std::numeric_limits<double>::infinity() : error.value;
@@ -38,13 +37,15 @@ Score score_of(const Results& results, std::size_t run, const std::string& famil
   for (const CaseResult& result : results.cases) {
     if (!is_of_family(result, family)) continue;
     add_stable(result.stable_steps[run], score);
+    const bool is_compared = has_main_error_of_truth(result);
+    const std::string metric = main_error(result);
     for (const Cell& cell : result.cells) {
       if (cell.run != run || !(cell.dt == headline)) continue;
       if (cell.status == Status::unsupported) ++score.unsupported;
-      const std::optional<double> error = error_of(result, cell);
+      const std::optional<double> error = is_compared ? error_of(result, cell, metric) : std::nullopt;
       if (!error) continue;
       errors.push_back(*error);
-      angles += main_error(result) == "orientation_error";
+      angles += metric == "orientation_error";
     }
   }
   score.compared = errors.size();
