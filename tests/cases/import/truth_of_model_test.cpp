@@ -1,0 +1,22 @@
+#include <boost/test/unit_test.hpp>
+
+#include "cases/import/import.h"
+#include "tests/scenes.h"
+
+using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(cases_import_truth_of_model)
+
+// 'reference' solves contact-free scenes, but none with a compound joint.
+BOOST_AUTO_TEST_CASE(a_model_gets_a_truth_that_takes_it) {
+  Scene scene;
+  scene.bodies = {test::body("cart", 1, {1, 1, 1})};
+  scene.joints = {{kWorld, 0, SliderJoint{Vec3::UnitX()}}};
+  BOOST_TEST(truth_of_model(scene) == "reference");
+  const std::vector<SeriesAxis> axes = {{false, Vec3::Zero(), Vec3::UnitX()}, {false, Vec3::Zero(), Vec3::UnitZ()}};
+  scene.joints = {
+      {kWorld, 0, CompoundJoint{axes}}, {kWorld, 0, CompoundAxis{axes, 0}}, {kWorld, 0, CompoundAxis{axes, 1}}};
+  BOOST_TEST(truth_of_model(scene) == "none");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
