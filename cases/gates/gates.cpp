@@ -273,8 +273,7 @@ class GateCheck {
 
   // The answer stands with the first run of the pair.
   void check_spread(const Spread& spread) {
-    if (spread.first == spread.second) return;  // of a run with itself at another step
-    if (!selects(spread.first) || !selects(spread.second) || !selects(spread.dt)) return;
+    if (spread.is_own_step() || !selects(spread.first) || !selects(spread.second) || !selects(spread.dt)) return;
     const bool both_have_results = std::all_of(result_.cells.begin(), result_.cells.end(), [&](const Cell& cell) {
       const bool is_of_pair = cell.run == spread.first || cell.run == spread.second;
       return !is_of_pair || cell.dt != spread.dt || has_result(cell);

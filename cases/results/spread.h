@@ -42,6 +42,9 @@ struct Spread {
   Furthest distance, angle;
   std::optional<double> parted_at;  // s; none if they stayed together
   double compared_until = 0;        // s: the end of the shorter one
+
+  // Of a run with itself at its finest step, and not of two runs at one.
+  bool is_own_step() const { return first == second; }
 };
 
 // Over the instants that both have. The runs and dt are left for the caller to fill in.

@@ -31,8 +31,8 @@ Status status_of(FailureKind kind);
 // `truth` may be null.
 TruthFacts facts_of(const Case& definition, const Truth* truth);
 
-// For every pair of runs at the same dt that both left a path. Where no truth is known, also for each run and its own
-// finest step, with `first` and `second` the same.
+// For every pair of runs at the same dt that both left a path. It also compares each run with itself at its finest step
+// where no truth is known.
 std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths);
 
 }  // namespace rigor

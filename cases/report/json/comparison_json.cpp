@@ -30,7 +30,7 @@ Json observed_orders_json(const Results& results, const CaseResult& result) {
 Json own_steps_json(const Results& results, const CaseResult& result) {
   Json own = Json::array();
   for (const Spread& spread : result.spreads) {
-    if (spread.first != spread.second) continue;
+    if (!spread.is_own_step()) continue;
     own.push_back({{"run", results.runs[spread.first].text},
                    {"dt", spread.dt.text},
                    {"distance", json_of(spread.distance, result.definition.scene)},
@@ -43,7 +43,7 @@ Json own_steps_json(const Results& results, const CaseResult& result) {
 Json spreads_json(const Results& results, const CaseResult& result) {
   Json spreads = Json::array();
   for (const Spread& spread : result.spreads) {
-    if (spread.first == spread.second) continue;
+    if (spread.is_own_step()) continue;
     spreads.push_back({{"first", results.runs[spread.first].text},
                        {"second", results.runs[spread.second].text},
                        {"dt", spread.dt.text},

@@ -72,7 +72,7 @@ TextTable spread_table(const Results& results, const CaseResult& result) {
   std::vector<std::size_t> runs;  // those that are in a pair
   std::vector<const Spread*> pairs;
   for (const Spread& spread : result.spreads) {
-    if (spread.first == spread.second) continue;
+    if (spread.is_own_step()) continue;
     if (spread.dt != dt || blew_up(result, spread.first, dt) || blew_up(result, spread.second, dt)) continue;
     pairs.push_back(&spread);
     for (const std::size_t run : {spread.first, spread.second}) {

@@ -13,22 +13,21 @@ namespace {
 
 constexpr double kFarther = 10;      // than the median of the nearest distances
 constexpr double kBeyondOthers = 3;  // times the largest distance of the others
-constexpr double kOwnStep = 0.1;     // of the distance between engines: what a step still changes, of first order
+constexpr double kOwnStep = 0.1;     // of the distance between engines: what the step still changes
 
 class Disagreement {
  public:
   Disagreement(const Results& results, const CaseResult& result) : results_(results), result_(result) {
     const Spread* finest = nullptr;
     for (const Spread& spread : result.spreads) {
-      if (spread.first != spread.second && ran(spread) && (!finest || spread.dt.seconds < finest->dt.seconds))
-        finest = &spread;
+      if (!spread.is_own_step() && ran(spread) && (!finest || spread.dt.seconds < finest->dt.seconds)) finest = &spread;
     }
     if (!finest) return;
     dt_ = finest->dt;
     std::set<std::string> engines;
     for (std::size_t run = 0; run < results.runs.size(); ++run) {
       const bool is_compared = std::any_of(result.spreads.begin(), result.spreads.end(), [&](const Spread& spread) {
-        return spread.dt == dt_ && spread.first != spread.second && ran(spread) &&
+        return spread.dt == dt_ && !spread.is_own_step() && ran(spread) &&
                (spread.first == run || spread.second == run);
       });
       if (is_compared && engines.insert(results.runs[run].engine).second) runs_.push_back(run);
@@ -52,6 +51,7 @@ class Disagreement {
     }
     const Spread& widest = widest_of(others);
     const std::string distance = claims.quantity(claim_of(widest), "m");
+    if (widest.distance.value == 0) return {{"disagreement", same_places(claims), "", claims.take()}};
     if (apart.empty())
       text +=
           fmt::format(" At dt = {} s {} engines are up to {} apart: most {} and {}{}.", dt_.text,
@@ -74,16 +74,28 @@ class Disagreement {
     return stays(spread.first) && stays(spread.second);
   }
 
+  std::string same_places(Claims& claims) const {
+    return fmt::format("No truth says who is right. At dt = {} s {} engines keep every body at the same places.",
+                       dt_.text, claims.count(count_claim()));
+  }
+
+  // Whether the run has nothing at finer steps, at which it may have blown up.
+  bool ends_at_the_finest(std::size_t run) const {
+    return std::none_of(result_.cells.begin(), result_.cells.end(), [&](const Cell& cell) {
+      return cell.run == run && cell.status != Status::unsupported && cell.dt.seconds < dt_.seconds && cell.dt != dt_;
+    });
+  }
+
   // How much each run changes from the step before the finest to the finest: what a smaller step can still change.
   std::string own_steps(const Spread& widest, Claims& claims) const {
     std::vector<const Spread*> own;
     for (const std::size_t run : runs_) {
       const Spread* last = nullptr;
       for (const Spread& spread : result_.spreads) {
-        const bool is_own = spread.first == run && spread.second == run && ran(spread);
+        const bool is_own = spread.is_own_step() && spread.first == run && ran(spread);
         if (is_own && (!last || spread.dt.seconds < last->dt.seconds)) last = &spread;
       }
-      if (last) own.push_back(last);
+      if (last && ends_at_the_finest(run)) own.push_back(last);
     }
     if (own.empty()) return "";
     const Spread& latest = **std::min_element(
@@ -97,7 +109,10 @@ class Disagreement {
                             one->distance.value};
       said += fmt::format("{}{} {}", said.empty() ? "" : ", ", name(one->first), claims.quantity(change, "m"));
     }
-    const bool is_of_models = own.size() == runs_.size() && largest < kOwnStep * widest.distance.value;
+    // Of first order, what is left below the finest step. Two steps that are close together change little and leave
+    // much.
+    const double left = largest * dt_.seconds / (latest.dt.seconds - dt_.seconds);
+    const bool is_of_models = own.size() == runs_.size() && std::max(largest, left) < kOwnStep * widest.distance.value;
     return fmt::format(" From dt = {} s to that step, positions still change: {}.{}", own.front()->dt.text, said,
                        is_of_models ? " A smaller step will not bring the engines together." : "");
   }

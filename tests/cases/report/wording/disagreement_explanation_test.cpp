@@ -72,6 +72,31 @@ BOOST_AUTO_TEST_CASE(the_steps_own_change_is_said) {
   one_only.put(0, 1, 0.2), one_only.put(0, 0, 0.003, kCoarse);
   BOOST_TEST(has(one_only.said(), "still change: mujoco 3 mm."));
   BOOST_TEST(!has(one_only.said(), "will not bring"));  // the other's change is not known
+
+  // Steps close to each other change little, and leave 24 times as much.
+  const StepSize near{1.04e-3, "1/960"};
+  Made close({"mujoco", "ode"});
+  for (std::size_t run : {0u, 1u}) {
+    Cell cell;
+    cell.run = run, cell.dt = near, cell.status = Status::pass, cell.metrics["survival"] = {};
+    close.results.cases[0].cells.push_back(cell);
+    close.put(run, run, 0.003, near);
+  }
+  close.put(0, 1, 0.2);
+  BOOST_TEST(has(close.said(), "From dt = 1/960 s to that step, positions still change: mujoco 3 mm, ode 3 mm."));
+  BOOST_TEST(!has(close.said(), "will not bring"));
+
+  // Nothing is said of a run with a still finer step, which is the one that its change goes to.
+  Made finer({"mujoco", "ode"});
+  finer.put(0, 1, 0.2), finer.put(0, 0, 0.003, kCoarse), finer.put(1, 1, 0.001, kCoarse);
+  Cell beyond;
+  beyond.run = 0, beyond.dt = {1e-4, "1/10000"}, beyond.status = Status::diverged;
+  finer.results.cases[0].cells.push_back(beyond);
+  BOOST_TEST(has(finer.said(), "still change: ode 1 mm."), finer.said());
+
+  Made at_rest({"mujoco", "ode"});
+  at_rest.put(0, 1, 0);
+  BOOST_TEST(has(at_rest.said(), "2 engines keep every body at the same places"), at_rest.said());
 }
 
 BOOST_AUTO_TEST_CASE(an_engine_far_from_all_others_is_named) {
