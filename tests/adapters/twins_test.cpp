@@ -1,4 +1,6 @@
 // Engines against their twins: on smooth scenes an engine must do what its published scheme does, to rounding.
+#include <fmt/format.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include "cases/case/suite.h"
@@ -88,9 +90,10 @@ std::vector<std::string> runs_with_twins() {
     for (const char* gyroscopic : {"implicit-body", "implicit-world", "explicit", "off"}) {
       names.push_back(std::string("bullet,gyroscopic=") + gyroscopic + "@" + track);
     }
-    if (is_built("mujoco")) {
+    for (const char* engine : {"mujoco", "mujoco3"}) {
+      if (!is_built(engine)) continue;
       for (const char* method : {"euler", "implicit", "rk4"})
-        names.push_back(std::string("mujoco:") + method + "@" + track);
+        names.push_back(fmt::format("{}:{}@{}", engine, method, track));
     }
     if (is_built("dart")) names.push_back(std::string("dart@") + track);
     if (is_built("simbody")) names.push_back(std::string("simbody:semi-explicit-euler@") + track);
