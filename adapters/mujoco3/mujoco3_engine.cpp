@@ -67,8 +67,8 @@ Json inertia_json(const Body& body) {
   return {m.x(), m.y(), m.z(), q.w(), q.x(), q.y(), q.z()};
 }
 
-// By joint: the hanging body and the coordinate whose effort is no reaction, or the equalities that close a loop.
-// Null if a joint is neither.
+// A row for each joint: the hanging body and the coordinate whose effort is no reaction, or the equalities that close a
+// loop. Null if a joint is neither.
 Json reactions_json(const Scene& scene, const SpanningTree& tree) {
   std::vector<Json> rows(scene.joints.size());
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {

@@ -98,8 +98,8 @@ std::optional<Diagnosis> hovering(const CaseResult& result, const MetricOverStep
   return diagnosis_of(kHovers, result, hover, 0, coarse, in_its_words(*hover.cells.front(), "contacts"));
 }
 
-// What an engine reports explains the motion to the rounding of its numbers; of single ones that is 1e-3 of the weight
-// at 1/4000 s.
+// Forces that are reported in full explain the motion to rounding. In single precision PhysX leaves 4e-7 of the weight
+// of a box at rest.
 std::optional<Diagnosis> forces_missing(const CaseResult& result, const MetricOverSteps& balance) {
   constexpr double kNotable = 0.01;  // of the largest weight
   const Scene& scene = result.definition.scene;

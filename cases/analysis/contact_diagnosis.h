@@ -1,5 +1,6 @@
-// Finds errors of contacts: restitution that does not converge, overlap returned as speed, friction that depends on the
-// direction, forces that grow as the step shrinks or do not explain the motion, bodies that creep, and bodies that hover.
+// Finds errors of contacts. Of impacts: restitution that does not converge, and overlap returned as speed. Of friction:
+// a dependence on the direction, and bodies that creep. Of forces: growth as the step shrinks, a motion that they do not
+// explain, and bodies that hover.
 #pragma once
 
 #include "cases/analysis/diagnosis.h"
@@ -19,7 +20,6 @@ inline constexpr const char* kCreeps = "creep";
 // Bodies press on each other across a gap that falls with dt. The value is the mean gap under load at the coarsest step
 // [m].
 inline constexpr const char* kHovers = "hover";
-
 // Contact forces that do not explain the motion. The value is what they leave [N], at the finest step.
 inline constexpr const char* kForcesMissing = "contact-balance";
 

@@ -1,6 +1,6 @@
-// Shared code of this folder's engines: the protocol's loop over an engine { info, load(scene, settings) }, whose load
-// returns a world { step(dt, wrenches), rows(), settings, free() }, and helpers for conversions. step() may return a text:
-// why the step is less accurate than the method promises. A world with contacts() returns the contact forces of its last
+// Shared code of this folder's engines: the protocol's loop, and helpers for conversions. An engine is
+// { info, load(scene, settings) }, and a world that it loads { step(dt, wrenches), rows(), settings, free() }. step() may
+// return a text: why the step is less accurate than the method promises. A world with contacts() returns the contact forces of its last
 // step, one with reactions() the loads of its joints. One with save() returns all that its next steps depend on, as bytes,
 // and restore(bytes) goes back to it.
 import { readSync, writeSync } from "node:fs";
