@@ -125,10 +125,16 @@ const std::vector<MissingEngine>& missing_engines() {
 
 const std::vector<EngineOnRequest>& engines_on_request() {
   static const std::vector<EngineOnRequest> named = {
-      {"mujoco3", "its formulas are those of mujoco, and each cell starts Node, which takes a second"},
+      {"mujoco3", "its formulas are those of mujoco, and each cell starts Node, which takes a second", "mujoco"},
       {"siconos", "a case with joints takes it some 20 s, and many with contacts its solver does not bring to its law"},
   };
   return named;
+}
+
+std::string formulas_of(const std::string& engine) {
+  for (const EngineOnRequest& row : engines_on_request())
+    if (row.name == engine && !row.formulas_of.empty()) return row.formulas_of;
+  return engine;
 }
 
 bool is_on_request(const std::string& engine) {

@@ -44,9 +44,12 @@ const std::vector<MissingEngine>& missing_engines();  // alphabetical
 struct EngineOnRequest {
   std::string name;
   std::string why;
+  std::string formulas_of = {};  // another engine: where both agree, that is no second opinion
 };
 const std::vector<EngineOnRequest>& engines_on_request();  // alphabetical, built or not
 bool is_on_request(const std::string& engine);
+// The engine whose formulas this one has, which is most often itself.
+std::string formulas_of(const std::string& engine);
 
 EngineTable built_in_engines();  // alphabetical; a copy of one's own, to add others to
 const EngineTable& engines();    // the same, without additional engines

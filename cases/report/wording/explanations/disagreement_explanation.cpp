@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "adapters/engines.h"
 #include "cases/report/wording/cell_claim.h"
 
 namespace rigor {
@@ -135,6 +136,7 @@ class Disagreement {
     const Spread* nearest = nullptr;
     for (const Spread* spread : among(runs_)) {
       if (spread->first != run && spread->second != run) continue;
+      if (voice_of(other_of(*spread, run)) == voice_of(run)) continue;
       if (!nearest || spread->distance.value < nearest->distance.value) nearest = spread;
     }
     return *nearest;
@@ -146,21 +148,38 @@ class Disagreement {
                               [](const Spread* a, const Spread* b) { return a->distance.value < b->distance.value; });
   }
 
-  // Engines that are far from all others, but at least two are left to stand apart from.
+  // Engines with the same formulas are one voice.
+  std::string voice_of(std::size_t run) const { return formulas_of(results_.runs[run].engine); }
+  std::vector<std::size_t> one_of_each_voice() const {
+    std::vector<std::size_t> voices;
+    std::set<std::string> heard;
+    for (const std::size_t run : runs_)
+      if (heard.insert(voice_of(run)).second) voices.push_back(run);
+    return voices;
+  }
+
+  // Engines that are far from all others, but at least two voices are left to stand apart from.
   std::vector<std::size_t> those_apart() const {
-    if (runs_.size() < 3) return {};
+    const std::vector<std::size_t> voices = one_of_each_voice();
+    if (voices.size() < 3) return {};
     std::vector<double> nearest;
-    for (const std::size_t run : runs_) nearest.push_back(nearest_of(run).distance.value);
+    for (const std::size_t run : voices) nearest.push_back(nearest_of(run).distance.value);
     std::vector<double> sorted = nearest;
     std::sort(sorted.begin(), sorted.end());
     const double median = sorted[sorted.size() / 2];
     std::vector<std::size_t> apart, others;
-    for (std::size_t k = 0; k < runs_.size(); ++k)
-      (nearest[k] > kFarther * median ? apart : others).push_back(runs_[k]);
+    for (std::size_t k = 0; k < voices.size(); ++k)
+      (nearest[k] > kFarther * median ? apart : others).push_back(voices[k]);
     if (others.size() < 2) return {};
     const double spread = widest_of(others).distance.value;
     std::erase_if(apart, [&](std::size_t run) { return !(nearest_of(run).distance.value > kBeyondOthers * spread); });
-    return apart;
+    // Those that share a voice with them stand apart, too.
+    std::vector<std::size_t> all;
+    for (const std::size_t run : runs_) {
+      const auto shares = [&](std::size_t one) { return voice_of(one) == voice_of(run); };
+      if (std::any_of(apart.begin(), apart.end(), shares)) all.push_back(run);
+    }
+    return all;
   }
 
   const std::string& name(std::size_t run) const { return results_.runs[run].text; }

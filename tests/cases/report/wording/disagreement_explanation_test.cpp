@@ -56,6 +56,20 @@ Made one_apart() {
 
 }  // namespace
 
+// MuJoCo 3 has the formulas of MuJoCo: that both agree says nothing against a third.
+BOOST_AUTO_TEST_CASE(two_engines_of_the_same_formulas_outvote_no_other) {
+  Made made({"core", "mujoco", "mujoco3"});
+  made.put(0, 1, 0.02), made.put(0, 2, 0.02), made.put(1, 2, 1e-15);
+  BOOST_TEST(!has(made.said(), "stands apart"), made.said());
+  BOOST_TEST(has(made.said(), "3 engines are up to 20 mm apart"), made.said());
+  // But both stand apart where two others agree.
+  Made four({"core", "mujoco", "mujoco3", "ode"});
+  four.put(0, 1, 0.5), four.put(0, 2, 0.5), four.put(1, 2, 1e-15);
+  four.put(0, 3, 1e-3), four.put(1, 3, 0.5), four.put(2, 3, 0.5);
+  BOOST_TEST(has(four.said(), "mujoco stands apart: it is 500 mm from the nearest other, core"), four.said());
+  BOOST_TEST(has(four.said(), "mujoco3 stands apart"), four.said());
+}
+
 // What a smaller step still changes, against what parts the engines.
 BOOST_AUTO_TEST_CASE(the_steps_own_change_is_said) {
   const auto with_own = [](double of_first, double of_second) {
