@@ -11,7 +11,9 @@
 #include "cases/cli/output.h"
 #include "cases/cli/progress/progress.h"
 #include "cases/cli/vocabulary.h"
+#include "cases/metrics/metric.h"
 #include "cases/report/wording/printed_command.h"
+#include "cases/report/wording/wording.h"
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
 
@@ -73,6 +75,7 @@ std::string front_text(const Tuning& tuning) {
   std::string text = fmt::format("{}: error against cost, from {} settings in {} runs\n  {:>10} {:>12}  {:<9} {}\n",
                                  tuning.engine, tuning.settings, tuning.runs, "error", "cost [ms/s]", "dt [s]", "run");
   for (const TunedPoint& point : tuning.front) text += row(point);
+  if (tuning.is_refined) text += "  no tried value keeps the bound, so numbers between them were searched\n";
   if (!tuning.without_effect.empty())
     text += fmt::format("  without effect here: {}\n", fmt::join(tuning.without_effect, ", "));
   return text + "\n";
@@ -115,13 +118,46 @@ std::string defaults_of(const RunName& run, const EngineTable& engines) {
   return text;
 }
 
-std::string winner_text(const TuneRequest& asked, const Tuning& tuning, const EngineTable& engines) {
+constexpr const char* kToldOfWinner[] = {"position_error", "orientation_error", "penetration"};
+
+// What the bounds do not ask for: a setting may keep them by a motion that nobody wants, as a contact so soft that a
+// ball sinks in. One line per case.
+std::string beyond_bounds(const TunedPoint& best, std::vector<Case> cases, const EngineTable& engines,
+                          const TuneRequest& asked) {
+  for (Case& definition : cases) definition.dt = {best.dt}, definition.gates.clear();
+  const RunName run = parse_run_name(best.run.text, engines.infos());
+  Results grid = plan_grid(cases, {run}, engines, {.stable_steps = false});
+  GridOptions options;
+  options.jobs = asked.jobs.count, options.limit = asked.timeout.seconds;
+  options.stable_steps = options.is_thorough = options.spreads = false;
+  run_grid(grid, engines, options, [](std::size_t, std::size_t) {});
+  std::string text = "  beyond the bounds:\n";
+  constexpr std::size_t kMost = 6;
+  for (std::size_t i = 0; i < grid.cases.size(); ++i) {
+    const CaseResult& result = grid.cases[i];
+    if (i == kMost) return text + fmt::format("    and {} more; the line above runs them\n", grid.cases.size() - kMost);
+    const Cell& cell = result.cells.front();
+    text += fmt::format("    {}: {}", result.definition.id,
+                        cell.status == Status::pass ? phrase_of(cell.stability) : cell.reason);
+    for (const char* metric : kToldOfWinner) {
+      const auto found = cell.metrics.find(metric);
+      if (found != cell.metrics.end() && found->second.not_applicable.empty())
+        text += fmt::format(", {} {}", metric, quantity_text(found->second.value, unit_of_metric(metric)));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string winner_text(const TuneRequest& asked, const Tuning& tuning, const std::vector<Case>& cases,
+                        const EngineTable& engines) {
   const TunedPoint& best = *tuning.winner;
   std::string text = fmt::format(
       "winner: {} at {} s, {} ms of CPU a simulated second ({} to {} in 5 repeats), {:.3g} of the bound\n  {}\n",
       best.run.text, best.dt.text, milliseconds(best.cost), milliseconds(best.least), milliseconds(best.most),
       best.error, run_of_winner(asked, best));
   const RunName run = parse_run_name(best.run.text, engines.infos());
+  text += beyond_bounds(best, cases, engines, asked);
   const std::string defaults = defaults_of(run, engines);
   if (!defaults.empty()) text += fmt::format("  by default: {}\n", defaults);
   const auto calls = engine_calls(run, fmt::format("{}.0 / {}", 1, best.dt.text.substr(2)));
@@ -168,7 +204,7 @@ int answer_of_tuning(const TuneRequest& asked, const EngineTable& engines) {
       fmt::format("within {} on {}\nerror: the largest share of a bound; cost: CPU time per simulated second\n\n", held,
                   fmt::join(asked.cases.words, ", "));
   if (!tuning.front.empty()) text += front_text(tuning);
-  text += tuning.winner ? winner_text(asked, tuning, engines)
+  text += tuning.winner ? winner_text(asked, tuning, cases, engines)
                         : fmt::format("no setting of {} keeps {}{}{}\n\n", tuning.engine, held,
                                       tuning.nearest.empty() ? "" : "; ", tuning.nearest);
   for (const std::string& remark : tuning.remarks) text += remark + "\n";

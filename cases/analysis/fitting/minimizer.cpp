@@ -40,7 +40,8 @@ class Simplex {
     while (true) {
       std::stable_sort(corners_.begin(), corners_.end(),
                        [](const auto& a, const auto& b) { return a.value < b.value; });
-      if (evaluations_ >= options_.most || diameter() < options_.tolerance)
+      const bool is_enough = corners_.front().value <= options_.enough;
+      if (is_enough || evaluations_ >= options_.most || diameter() < options_.tolerance)
         return {mirrored(corners_.front().at), corners_.front().value};
       step();
     }
@@ -135,7 +136,7 @@ BoxMinimum nelder_mead(const std::function<double(const BoxPoint&)>& function, c
     left -= std::min(left, simplex.evaluations());
     const bool is_better = found.value < best.value;
     if (is_better) best = found;
-    if (!is_better || left <= start.at.size()) return best;
+    if (!is_better || best.value <= options.enough || left <= start.at.size()) return best;
   }
 }
 

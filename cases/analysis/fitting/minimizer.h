@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace rigor {
@@ -22,6 +23,7 @@ struct SimplexOptions {
   double size = 0.15;       // of the first simplex
   double tolerance = 1e-4;  // the search ends when the simplex is smaller
   std::size_t most = 120;   // evaluations
+  double enough = -std::numeric_limits<double>::infinity();  // the search ends at a value this small
 };
 
 BoxMinimum nelder_mead(const std::function<double(const BoxPoint&)>& function, const BoxMinimum& start,

@@ -19,63 +19,95 @@ std::vector<std::string> few_of(const OptionInfo& option) {
   return {all.front(), all[all.size() / 2], all.back()};
 }
 
-void add_runs(const MethodSpace& space, const OptionInfo& option, const std::vector<std::string>& values,
-              std::vector<std::string>& runs) {
+std::vector<std::string> runs_of(const MethodSpace& space, const OptionInfo& option,
+                                 const std::vector<std::string>& values) {
+  std::vector<std::string> runs;
   for (const std::string& value : values) runs.push_back(with_option(space.base, option.name, value));
+  return runs;
 }
 
 }  // namespace
 
 // Runs each of these once.
-void SettingChooser::screen(const std::vector<std::string>& runs, double limit) {
+void SettingChooser::screen(const std::vector<std::string>& runs, double limit, double share, Effects& effects) {
   std::vector<Probe> probes;
   for (const std::string& run : runs) {
-    if (effects_.contains(run)) continue;
+    if (effects.contains(run)) continue;
     for (const std::size_t step : {kCoarse, kFine}) probes.push_back({run, step});
   }
-  const auto answers = prober_.run(probes, {.share = kShare, .jobs = options_.jobs, .limit = limit});
+  const auto answers = prober_.run(probes, {.share = share, .jobs = options_.jobs, .limit = limit});
   for (std::size_t i = 0; i < probes.size(); ++i) {
-    Effect& effect = effects_[probes[i].run];
+    Effect& effect = effects[probes[i].run];
     effect.values.insert(effect.values.end(), answers[i].values.begin(), answers[i].values.end());
     effect.seconds = std::max(effect.seconds, answers[i].seconds), effect.is_late |= answers[i].is_late;
   }
 }
 
-bool SettingChooser::has_effect(const MethodSpace& space, const OptionInfo& option) const {
-  const auto few = few_of(option);
-  return std::any_of(few.begin(), few.end(), [&](const std::string& value) {
-    return effects_.at(with_option(space.base, option.name, value)).values != effects_.at(space.base).values;
+// Whether the option has an effect, told by a few of its values. If so, the others are run, too.
+bool SettingChooser::screen_option(const MethodSpace& space, const OptionInfo& option, double limit, double share,
+                                   Effects& effects) {
+  const std::vector<std::string> few = runs_of(space, option, few_of(option));
+  screen(few, limit, share, effects);
+  const bool has_effect = std::any_of(few.begin(), few.end(), [&](const std::string& run) {
+    return effects.at(run).values != effects.at(space.base).values;
   });
+  if (has_effect) screen(runs_of(space, option, tried_values(option)), limit, share, effects);
+  return has_effect;
 }
 
-// Leaves out values that change nothing and values that make the run far dearer.
+// Leaves out values that change nothing and values that make the run far dearer. An option that changes nothing at
+// first may do so later, at a contact for example. Therefore only whole runs show that it is without effect.
 SettingChooser::Choices SettingChooser::options_with_effect(const MethodSpace& space) {
-  screen({space.base}, options_.limit);
-  const double limit = std::max(kLeastLimit, kFarDearer * effects_.at(space.base).seconds);
-  std::vector<std::string> runs;
-  for (const OptionInfo& option : space.options) add_runs(space, option, few_of(option), runs);
-  screen(runs, limit);
-  runs.clear();
-  for (const OptionInfo& option : space.options) {
-    if (has_effect(space, option)) add_runs(space, option, tried_values(option), runs);
-  }
-  screen(runs, limit);
   Choices choices;
+  const Runnable screened = runnable(space);
   for (const OptionInfo& option : space.options) {
-    if (!has_effect(space, option)) {
-      without_effect_.push_back(fmt::format("{} of {}", option.name, space.base));
-      continue;
+    // The option that makes the method run at all is compared with the method that does not.
+    const MethodSpace& from = option.name == screened.needed ? space : screened.space;
+    screen({from.base}, options_.limit, kShare, short_);
+    const double limit = std::max(kLeastLimit, kFarDearer * short_.at(from.base).seconds);
+    bool has_effect = screen_option(from, option, limit, kShare, short_);
+    const Effects& effects = has_effect ? short_ : whole_;
+    if (!has_effect) {
+      screen({from.base}, options_.limit, 1, whole_);
+      has_effect = screen_option(from, option, limit / kShare, 1, whole_);
     }
-    std::vector<std::vector<double>> seen = {effects_.at(space.base).values};
-    std::vector<std::string> values;
-    for (const std::string& value : tried_values(option)) {
-      const Effect& effect = effects_.at(with_option(space.base, option.name, value));
-      if (effect.is_late || std::find(seen.begin(), seen.end(), effect.values) != seen.end()) continue;
-      seen.push_back(effect.values), values.push_back(value);
-    }
+    const std::vector<std::string> values = values_with_effect(from, option, effects);
+    if (!has_effect) without_effect_.push_back(fmt::format("{} of {}", option.name, space.base));
     if (!values.empty()) choices.emplace_back(option.name, values);
   }
   return choices;
+}
+
+// The space itself, if its method runs without an option; otherwise it with the first value of an option that has a
+// result. MuJoCo, for example, has no restitution unless a run names the damping of contacts.
+SettingChooser::Runnable SettingChooser::runnable(const MethodSpace& space) {
+  const auto has_result = [&](const std::string& run) {
+    const std::vector<double>& values = short_.at(run).values;
+    return std::any_of(values.begin(), values.end(), [](double value) { return value != ProbeAnswer::kNone; });
+  };
+  screen({space.base}, options_.limit, kShare, short_);
+  if (has_result(space.base)) return {space, ""};
+  for (const OptionInfo& option : space.options) {
+    const std::vector<std::string> runs = runs_of(space, option, tried_values(option));
+    screen(runs, options_.limit, kShare, short_);
+    const auto found = std::find_if(runs.begin(), runs.end(), has_result);
+    if (found != runs.end()) return {{*found, space.options}, option.name};
+  }
+  return {space, ""};
+}
+
+// Values whose runs differ from the unchanged method's and from each other's.
+std::vector<std::string> SettingChooser::values_with_effect(const MethodSpace& space, const OptionInfo& option,
+                                                            const Effects& effects) {
+  std::vector<std::vector<double>> seen = {effects.at(space.base).values};
+  std::vector<std::string> values;
+  for (const std::string& value : tried_values(option)) {
+    const auto effect = effects.find(with_option(space.base, option.name, value));
+    if (effect == effects.end() || effect->second.is_late) continue;
+    if (std::find(seen.begin(), seen.end(), effect->second.values) != seen.end()) continue;
+    seen.push_back(effect->second.values), values.push_back(value);
+  }
+  return values;
 }
 
 std::vector<std::string> SettingChooser::settings_of(const MethodSpace& space, std::size_t most) {

@@ -28,18 +28,27 @@ class SettingChooser {
  private:
   using Choices = std::vector<std::pair<std::string, std::vector<std::string>>>;  // option, values
   struct Effect {
-    std::vector<double> values;  // of a short run at two steps, for all bounds and cases
+    std::vector<double> values;  // of runs at two steps, for all bounds and cases
     double seconds = 0;          // its duration
     bool is_late = false;
   };
 
-  void screen(const std::vector<std::string>& runs, double limit);
-  bool has_effect(const MethodSpace& space, const OptionInfo& option) const;
+  struct Runnable {
+    MethodSpace space;
+    std::string needed;  // the option that its base names, so that it runs; else empty
+  };
+  using Effects = std::map<std::string, Effect>;  // by run
+
+  void screen(const std::vector<std::string>& runs, double limit, double share, Effects& effects);
+  bool screen_option(const MethodSpace& space, const OptionInfo& option, double limit, double share, Effects& effects);
+  Runnable runnable(const MethodSpace& space);
   Choices options_with_effect(const MethodSpace& space);
+  static std::vector<std::string> values_with_effect(const MethodSpace& space, const OptionInfo& option,
+                                                     const Effects& effects);
 
   Prober& prober_;
   const TuneOptions& options_;
-  std::map<std::string, Effect> effects_;  // by run
+  Effects short_, whole_;  // of a share of the run, and of all of it
   std::vector<std::string> without_effect_;
 };
 

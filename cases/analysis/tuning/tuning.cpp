@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "cases/analysis/tuning/setting_chooser.h"
+#include "cases/analysis/tuning/setting_refiner.h"
 
 namespace rigor {
 namespace {
@@ -15,21 +16,27 @@ namespace {
 struct Setting {
   std::string run;
   std::size_t step = 0;
+  const MethodSpace* space = nullptr;
 };
 
 class Tuner {
  public:
   Tuner(const std::string& text, const std::vector<Case>& cases, const std::vector<Bound>& bounds,
         const EngineTable& engines, const TuneOptions& options)
-      : spaces_(method_spaces(text, engines.infos())), options_(options), prober_(cases, bounds, engines, options) {
+      : spaces_(method_spaces(text, engines.infos())),
+        engines_(engines),
+        options_(options),
+        prober_(cases, bounds, engines, options) {
     found_.engine = text;
   }
 
   Tuning run() {
-    std::vector<Setting> settings = choose_settings();
+    const std::vector<Setting> settings = choose_settings();
     found_.settings = settings.size();
-    for (const double share : {0.125, 0.25, 0.5}) settings = halved(std::move(settings), share);
-    confirm(settings);
+    std::vector<Setting> left = settings;
+    for (const double share : {0.125, 0.25, 0.5}) left = halved(std::move(left), share);
+    confirm(left.empty() ? every_method() : left);
+    if (!keeps_anywhere()) confirm(refined(settings));
     measure_again();
     found_.runs = prober_.runs();
     found_.remarks = {prober_.remarks().begin(), prober_.remarks().end()};
@@ -44,7 +51,7 @@ class Tuner {
     SettingChooser chooser(prober_, options_);
     std::vector<Setting> settings;
     for (const MethodSpace& space : spaces_) {
-      for (const std::string& run : chooser.settings_of(space, share)) settings.push_back({run});
+      for (const std::string& run : chooser.settings_of(space, share)) settings.push_back({run, 0, &space});
     }
     found_.without_effect = chooser.without_effect();
     return settings;
@@ -102,7 +109,6 @@ class Tuner {
   void confirm(const std::vector<Setting>& settings) {
     std::vector<Setting> left = settings;
     for (Setting& setting : left) setting.step -= std::min<std::size_t>(setting.step, 2);
-    if (left.empty()) left = every_method();
     std::size_t best = tuned_steps().size();
     while (!left.empty()) {
       const auto probes = probes_of(left);
@@ -130,6 +136,49 @@ class Tuner {
     std::vector<Setting> settings;
     for (const MethodSpace& space : spaces_) settings.push_back({space.base, tuned_steps().size() - kStepsAtOnce});
     return settings;
+  }
+
+  bool keeps_anywhere() const {
+    return std::any_of(points_.begin(), points_.end(), [](const TunedPoint& point) { return point.keeps(); });
+  }
+
+  // If no tried value keeps the bounds: settings that keep them with numbers between the tried ones, at the coarsest of
+  // a few steps. The search starts where whole runs come nearest.
+  std::vector<Setting> refined(const std::vector<Setting>& settings) {
+    constexpr std::size_t kSteps[] = {14, 20, 26, 30};  // 1/240, 1/1000, 1/4000, 1/10000 s
+    std::vector<Setting> kept;
+    for (const std::size_t step : kSteps) {
+      for (const auto& [setting, start] : nearest_runs(settings, step)) {
+        const Refined best = refine(start, setting->space->options, prober_, engines_, options_.jobs);
+        const bool is_new = std::none_of(kept.begin(), kept.end(),
+                                         [&](const Setting& other) { return other.run == best.probe.run; });
+        // A run that keeps the bounds is confirmed, with steps around this one.
+        if (best.answer.error > 1)
+          keep_point(best.probe, best.answer);
+        else if (is_new)
+          kept.push_back({best.probe.run, best.probe.step, setting->space});
+      }
+      if (!kept.empty()) break;
+    }
+    found_.is_refined = !kept.empty();
+    return kept;
+  }
+
+  using NearRun = std::pair<const Setting*, Refined>;
+  std::vector<NearRun> nearest_runs(const std::vector<Setting>& settings, std::size_t step) {
+    constexpr std::size_t kStarts = 2;
+    std::vector<Probe> probes;
+    for (const Setting& setting : settings) probes.push_back({setting.run, step});
+    const auto answers = prober_.run(probes, {.is_timed = true, .jobs = options_.jobs});
+    std::vector<NearRun> runs;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      if (std::isfinite(answers[i].error)) runs.emplace_back(&settings[i], Refined{probes[i], answers[i]});
+    }
+    std::stable_sort(runs.begin(), runs.end(), [](const NearRun& a, const NearRun& b) {
+      return a.second.answer.error < b.second.answer.error;
+    });
+    runs.resize(std::min(runs.size(), kStarts));
+    return runs;
   }
 
   bool keep_point(const Probe& probe, const ProbeAnswer& answer) {
@@ -213,6 +262,7 @@ class Tuner {
   }
 
   std::vector<MethodSpace> spaces_;
+  const EngineTable& engines_;
   const TuneOptions& options_;
   Prober prober_;
   double quickest_ = ProbeAnswer::kNone;  // s: an estimate for a whole run that keeps the bounds

@@ -1,7 +1,8 @@
 // Finds the cheapest setting of an engine that keeps bounds on several cases. The space is the engine's methods, the
 // option values in their tables, and steps. Options without effect are left out. Short runs compare the settings first,
 // and the better half goes on to longer runs (successive halving: Jamieson, Talwalkar, AISTATS 2016). The rest run in
-// full. The cheapest of them are measured several times.
+// full. The cheapest of them are measured several times. If none of them keeps the bounds, numbers between the tried values
+// are searched.
 #pragma once
 
 #include <functional>
@@ -41,6 +42,7 @@ struct Tuning {
   std::vector<TunedPoint> front;            // no other point is both cheaper and more accurate; by cost
   std::vector<std::string> without_effect;  // "worldstep: erp"
   std::vector<std::string> remarks;         // parts of runs that no bound was compared with
+  bool is_refined = false;                  // only numbers between the tried ones keep the bounds
   std::string nearest;                      // if nothing keeps the bounds: the nearest point, or why nothing ran
   std::size_t settings = 0, runs = 0;       // tried
 };
