@@ -209,7 +209,7 @@ int answer_of_tuning(const TuneRequest& asked, const EngineTable& engines) {
                                       tuning.nearest.empty() ? "" : "; ", tuning.nearest);
   for (const std::string& remark : tuning.remarks) text += remark + "\n";
   print_table(text);
-  options.settings = kSettingsBeside;
+  options.settings = kSettingsBeside, options.refines = false;
   std::vector<Tuning> others;
   for (const EngineInfo& engine : engines.infos()) {
     if (engine.name != asked_for && !is_on_request(engine.name))

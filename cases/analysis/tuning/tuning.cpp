@@ -36,7 +36,7 @@ class Tuner {
     std::vector<Setting> left = settings;
     for (const double share : {0.125, 0.25, 0.5}) left = halved(std::move(left), share);
     confirm(left.empty() ? every_method() : left);
-    if (!keeps_anywhere()) confirm(refined(settings));
+    if (options_.refines && !keeps_anywhere()) confirm(refined(settings));
     measure_again();
     found_.runs = prober_.runs();
     found_.remarks = {prober_.remarks().begin(), prober_.remarks().end()};

@@ -21,6 +21,7 @@ struct TuneOptions {
   double limit = 60;                                   // s of CPU time for each cell and each truth
   unsigned long seed = 1;                              // of the combinations drawn if there are too many
   std::size_t settings = 48;                           // the most combinations of methods and options
+  bool refines = true;                                 // search between tried values if none of them keeps the bounds
   std::function<void(std::size_t runs)> on_runs = {};  // called with the number of finished runs, each a case at a step
 };
 

@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(the_winner_is_the_coarsest_step_that_theory_allows) {
   BOOST_TEST(answer.out.find("dWorldStep(world, 1.0 / 500);") != std::string::npos, answer.out);
   BOOST_TEST(answer.out.find("without effect here: ") != std::string::npos, answer.out);
   BOOST_TEST(answer.out.find("the other engines, with at most 16 settings each") != std::string::npos);
-  BOOST_TEST(found(answer.out, "beyond the bounds:\n +stone: (\\S+), position_error ") == "stable", answer.out);
+  BOOST_TEST(found(answer.out, "beyond the bounds:\n +stone.toml: (\\S+), position_error ") == "stable", answer.out);
   // And the run that it names keeps the bound.
   const std::string engine = found(answer.out, "--engine (\\S+)");
   BOOST_TEST(run({"run", "stone.toml", "--engine", engine, "--dt", "1/500", "--out", "out"}).code == 0);
