@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "cases/metrics/measures/contact/meeting_points.h"
 #include "cases/metrics/measures/contact/pair_wrenches.h"
 #include "tests/cases/metrics/standing_run.h"
 #include "tests/cases/truth/closed_form/contact/contact_scenes.h"
@@ -229,6 +230,32 @@ BOOST_AUTO_TEST_CASE(bodies_that_a_joint_holds_together_are_balanced_as_one) {
   const Trajectory run = standing(scene, 3, [](int) { return std::vector<ReportedContact>(); });
   BOOST_TEST(result_of("contact_balance", scene, run).not_applicable ==
              "joints or springs hold every body to the world");
+}
+
+// Three balls in a row: the first strikes, the second passes the whole momentum on within the step and stands at both of
+// its ends, a millimetre from both others. So each pair carries m v/dt.
+BOOST_AUTO_TEST_CASE(a_body_that_passes_its_momentum_on_within_a_step_is_met) {
+  constexpr double dt = 0.1, v = 1, gap = 1e-3;
+  Scene scene;
+  scene.gravity = Vec3::Zero();
+  scene.contact_default = {1, 0};
+  for (int i = 0; i < 3; ++i)
+    scene.bodies.push_back(test::on_its_own("ball " + std::to_string(i), Sphere{0.5}, 2, {i * (1 + gap), 0, 0}));
+  scene.bodies[0].velocity = {v, 0, 0};
+  BodyTable before(3), after(3);
+  set_initial_state(scene, before.columns()), set_initial_state(scene, after.columns());
+  after.columns().set_position(0, {gap, 0, 0}), after.columns().set_velocity(0, Vec3::Zero());
+  after.columns().set_position(1, {1 + 2 * gap, 0, 0});
+  after.columns().set_position(2, {2 + 2 * gap + v * (dt - 2 * gap / v), 0, 0});
+  after.columns().set_velocity(2, {v, 0, 0});
+  const auto points = [&](double length) {
+    return meeting_points(scene, ContactLaws(scene), std::as_const(before).columns(), std::as_const(after).columns(),
+                          length);
+  };
+  BOOST_TEST(points(dt).size() == 2u);
+  // Within a step too short for the first ball to arrive no pair meets, and none is kicked.
+  set_initial_state(scene, after.columns());
+  BOOST_TEST(points(0.5 * gap / v).empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_run_without_reports_says_so) {

@@ -1,5 +1,6 @@
 #include "cases/metrics/measures/contact/meeting_points.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,6 +34,7 @@ Pose middle_of(BodyColumns before, BodyColumns after, int body, double dt) {
 struct Surface {
   double way = 0;        // m: no point moves farther, if both ends' velocities bound those between
   double deviation = 0;  // m: of a point from its straight way with the velocity at the start, likewise
+  double kick = 0;       // m/s: by which impacts within the step may change the velocity of a point for a while
 };
 
 Surface surface_of(const Body& body, BodyColumns before, BodyColumns after, std::size_t i, double dt) {
@@ -45,43 +47,93 @@ Surface surface_of(const Body& body, BodyColumns before, BodyColumns after, std:
   return {dt * speed, dt * (changed + dt * radius * turning * turning)};
 }
 
-// The least gap, if all points went on with their velocities of the start.
-double gap_after(const Manifold& points, BodyColumns bodies, int a, int b, double dt) {
+// How two bodies approach, if all points go on with their velocities of the start.
+struct Approach {
+  double gap_after = std::numeric_limits<double>::infinity();  // m: the least, after the step
+  double speed = 0;                                            // m/s: of the fastest point
+};
+
+Approach approach_of(const Manifold& points, BodyColumns bodies, int a, int b, double dt) {
   const auto velocity = [&](int body, const Vec3& at) {
     const auto i = static_cast<std::size_t>(body);
     return Vec3(bodies.velocity(i) + bodies.angular_velocity(i).cross(at - bodies.position(i)));
   };
-  double least = std::numeric_limits<double>::infinity();
+  Approach found;
   for (const ManifoldPoint& point : points) {
-    const double rate = point.normal.dot(velocity(a, point.point) - velocity(b, point.point));
-    least = std::min(least, point.gap + dt * std::min(rate, 0.0));
+    const double speed = -point.normal.dot(velocity(a, point.point) - velocity(b, point.point));
+    found.speed = std::max(found.speed, speed);
+    found.gap_after = std::min(found.gap_after, point.gap - dt * std::max(speed, 0.0));
   }
-  return least;
+  return found;
 }
 
-std::set<BodyPair> meeting_pairs(const Scene& scene, BodyColumns before, BodyColumns after, double dt,
-                                 double touching) {
-  std::vector<Surface> surfaces;
-  double farthest = 0, most = 0;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    surfaces.push_back(surface_of(scene.bodies[i], before, after, i, dt));
-    farthest = std::max(farthest, surfaces.back().way), most = std::max(most, surfaces.back().deviation);
-  }
-  std::set<BodyPair> pairs;
-  Manifold points;
-  for_each_near_pair(scene, before, 2 * (farthest + most) + touching, [&](int a, int b, double gap) {
-    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    bool meets = gap <= touching;
-    if (!meets) {
-      collide(*scene.bodies[i].shape, middle_of(before, before, a, 0), *scene.bodies[j].shape,
-              middle_of(before, before, b, 0), points);
-      meets = gap_after(points, before, a, b, dt) <= touching + surfaces[i].deviation + surfaces[j].deviation;
+// Finds the pairs that may meet within a step. An impact may send a body to another one that takes all of its velocity,
+// as in Newton's cradle: the velocities at both ends of the step tell nothing of it. Therefore each pair that meets may
+// kick its bodies once, and pairs are asked again with these kicks.
+class MeetingPairs {
+ public:
+  MeetingPairs(const Scene& scene, const ContactLaws& laws, BodyColumns before, BodyColumns after, double dt,
+               double touching)
+      : scene_(scene), laws_(laws), before_(before), dt_(dt), touching_(touching) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      surfaces_.push_back(surface_of(scene.bodies[i], before, after, i, dt));
+    while (ask_all()) {
     }
-    if (meets) pairs.insert(pair_of(scene, a, b));
-  });
-  for_each_near_pair(scene, after, touching, [&](int a, int b, double) { pairs.insert(pair_of(scene, a, b)); });
-  return pairs;
-}
+    for_each_near_pair(scene, after, touching, [&](int a, int b, double) { pairs_.insert(pair_of(scene, a, b)); });
+  }
+
+  const std::set<BodyPair>& pairs() const { return pairs_; }
+
+ private:
+  // Whether a pair has kicked its bodies.
+  bool ask_all() {
+    double farthest = 0;
+    for (const Surface& surface : surfaces_)
+      farthest = std::max(farthest, surface.way + surface.deviation + dt_ * surface.kick);
+    bool has_kicked = false;
+    for_each_near_pair(scene_, before_, touching_ + 2 * farthest,
+                       [&](int a, int b, double gap) { has_kicked |= ask(a, b, gap); });
+    return has_kicked;
+  }
+
+  bool ask(int a, int b, double gap) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    Surface &of_a = surfaces_[i], &of_b = surfaces_[j];
+    collide(*scene_.bodies[i].shape, middle_of(before_, before_, a, 0), *scene_.bodies[j].shape,
+            middle_of(before_, before_, b, 0), points_);
+    const Approach approach = approach_of(points_, before_, a, b, dt_);
+    const double kicks = of_a.kick + of_b.kick;
+    const bool meets =
+        gap <= touching_ || approach.gap_after - dt_ * kicks <= touching_ + of_a.deviation + of_b.deviation;
+    if (!meets) return false;
+    const BodyPair pair = pair_of(scene_, a, b);
+    pairs_.insert(pair);
+    // A speed that carries a body nowhere within the step is that of a body at rest.
+    const double speed = approach.speed + kicks;
+    if (dt_ * speed <= touching_ || !have_kicked_.insert(pair).second) return false;
+    const double impulse = (1 + laws_.of(a, b).restitution) * speed / (inverse_mass(i) + inverse_mass(j));
+    of_a.kick = std::max(of_a.kick, impulse * yielding(i)), of_b.kick = std::max(of_b.kick, impulse * yielding(j));
+    return true;
+  }
+
+  double inverse_mass(std::size_t i) const { return scene_.bodies[i].fixed ? 0 : 1 / scene_.bodies[i].mass; }
+
+  // At most by how much an impulse changes the velocity of the body's points along it: 1/kg.
+  double yielding(std::size_t i) const {
+    const Body& body = scene_.bodies[i];
+    if (body.fixed || std::holds_alternative<Sphere>(*body.shape)) return inverse_mass(i);
+    const double least = Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia).eigenvalues().minCoeff();
+    return inverse_mass(i) + std::pow(bounding_radius(*body.shape), 2) / least;
+  }
+
+  const Scene& scene_;
+  const ContactLaws& laws_;
+  BodyColumns before_;
+  double dt_, touching_;
+  std::vector<Surface> surfaces_;
+  std::set<BodyPair> pairs_, have_kicked_;
+  Manifold points_;
+};
 
 // Whether the two parts that touch have an algorithm that finds one point of an area or a line.
 bool stands_for_an_area(const Scene& scene, const BodyPair& pair, const Manifold& points, const ManifoldPoint& at) {
@@ -107,7 +159,8 @@ std::vector<MeetingPoint> meeting_points(const Scene& scene, const ContactLaws& 
   const double size = smallest_half_width(scene);
   std::vector<MeetingPoint> found;
   Manifold points;
-  for (const BodyPair& pair : meeting_pairs(scene, before, after, dt, kTouching * size)) {
+  const MeetingPairs meeting(scene, laws, before, after, dt, kTouching * size);
+  for (const BodyPair& pair : meeting.pairs()) {
     const auto shape = [&](int body) { return *scene.bodies[static_cast<std::size_t>(body)].shape; };
     collide(shape(pair.first), middle_of(before, after, pair.first, dt), shape(pair.second),
             middle_of(before, after, pair.second, dt), points);

@@ -19,8 +19,9 @@ struct MeetingPoint {
 };
 
 // The points of all pairs that touch at the start or the end of a step, or may meet between. Two bodies may meet if
-// their surfaces approach by at least the gap, as the velocities at both ends tell. Points that are apart while others
-// of the pair touch count up to a thousandth of the smallest body's size. More points determine fewer forces.
+// their surfaces approach by at least the gap, as the velocities at both ends and impacts between them allow. Points
+// that are apart while others of the pair touch count up to a thousandth of the smallest body's size. More points
+// determine fewer forces.
 std::vector<MeetingPoint> meeting_points(const Scene& scene, const ContactLaws& laws, BodyColumns before,
                                          BodyColumns after, double dt);
 
