@@ -1,0 +1,77 @@
+// The simulators: each in a worker of its own, so that the page stays fluid, and one that traps costs its panel alone.
+const unpacked = async (id) => {
+  const text = document.getElementById(id).textContent;
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).arrayBuffer();
+};
+
+const asText = (buffer) => new TextDecoder().decode(buffer);
+
+// The cases of the suite that the page carries: [{ id, text }].
+export const carriedCases = async () => JSON.parse(asText(await unpacked("rigor-cases")));
+
+let prepared = null;
+const prepare = () =>
+  (prepared ??= (async () => {
+    const [script, wasm] = await Promise.all([unpacked("rigor-worker"), unpacked("rigor-wasm")]);
+    return {
+      // A page in a file has no address that a worker may be loaded from; a blob has one everywhere.
+      address: URL.createObjectURL(new Blob([script], { type: "text/javascript" })),
+      module: await WebAssembly.compile(wasm),
+    };
+  })());
+
+export class Simulator {
+  constructor() {
+    this.waiting = new Map();
+    this.last = 0;
+    this.started = this.start();
+  }
+
+  async start() {
+    const { address, module } = await prepare();
+    if (this.closed) return;
+    this.worker = new Worker(address);
+    this.worker.onmessage = ({ data: { id, answer, numbers } }) => {
+      const done = this.waiting.get(id);
+      this.waiting.delete(id);
+      if (answer.has_trapped) this.hasTrapped = true;
+      done?.({ ...answer, numbers });
+    };
+    this.worker.onerror = (event) => this.fail(event.message ?? "its script failed");
+    await this.send({ module });
+  }
+
+  send(message, transfer = []) {
+    const id = ++this.last;
+    return new Promise((done) => {
+      this.waiting.set(id, done);
+      this.worker.postMessage({ id, ...message }, transfer);
+    });
+  }
+
+  fail(why) {
+    this.hasTrapped = true;
+    for (const done of this.waiting.values()) done({ ok: false, has_trapped: true, why: `the simulator stopped: ${why}` });
+    this.waiting.clear();
+  }
+
+  // The answer to a call of calls.h; `numbers` are copied, not taken.
+  async call(request, numbers = null) {
+    await this.started;
+    if (this.closed) return { ok: false, is_closed: true, why: "closed" };
+    return this.send(numbers ? { request, numbers } : { request });
+  }
+
+  get isBusy() {
+    return this.waiting.size > 0;
+  }
+
+  close() {
+    this.closed = true;
+    this.worker?.terminate();
+    for (const done of this.waiting.values()) done({ ok: false, is_closed: true, why: "closed" });
+    this.waiting.clear();
+  }
+}
