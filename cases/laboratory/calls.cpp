@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -77,11 +78,13 @@ Json refusals(const Scene& scene) {
 
 // Likewise its contact methods, with velocity-verlet.
 Json contact_refusals(const Scene& scene) {
+  Settings settings;
+  settings.method = "velocity-verlet";
   Json why = Json::object();
-  for (const OptionInfo& option : method_of(core(), {.method = "velocity-verlet"}).options) {
+  for (const OptionInfo& option : method_of(core(), settings).options) {
     if (option.name != "contact") continue;
     for (const std::string& choice : option.choices) {
-      const Settings settings{.method = "velocity-verlet", .options = {{"contact", choice}}};
+      settings.options = {{"contact", choice}};
       const std::string reason = why_unsupported(core(), settings, scene, 0);
       if (!reason.empty()) why[choice] = reason;
     }
@@ -132,6 +135,13 @@ struct LaboratoryCalls::Request {
 
 namespace {
 
+// rad/s at the start.
+double largest_spin(const Scene& scene) {
+  double largest = 0;
+  for (const Body& body : scene.bodies) largest = std::max(largest, body.angular_velocity.norm());
+  return largest;
+}
+
 Json facts_of(const Case& read) {
   Json steps = Json::array(), knobs = Json::array();
   for (const StepSize& dt : read.dt) steps.push_back(dt.text);
@@ -142,6 +152,7 @@ Json facts_of(const Case& read) {
           {"duration", read.duration},
           {"dt", steps},
           {"truth", read.truth},
+          {"spin", largest_spin(read.scene)},
           {"knobs", knobs},
           {"lacks", refusals(read.scene)},
           {"contact_lacks", contact_refusals(read.scene)},

@@ -123,7 +123,9 @@ BOOST_AUTO_TEST_CASE(hashes_are_those_of_rigor_repeat) {
   const std::string digits = answered(calls, hashes).at("hashes");
   const Engine& core = engines().find("core");
   Scene scene = rigor::test::fixed_spring();
-  const auto due = hashes_of(recorded(core, {.method = "rk4"}, scene, 1.0 / 30, 10));
+  Settings settings;
+  settings.method = "rk4";
+  const auto due = hashes_of(recorded(core, settings, scene, 1.0 / 30, 10));
   BOOST_TEST_REQUIRE(digits.size() == 16 * due.size());
   for (std::size_t n = 0; n < due.size(); ++n)
     BOOST_TEST(std::stoull(digits.substr(16 * n, 16), nullptr, 16) == due[n]);

@@ -111,6 +111,7 @@ export class App {
     this.told = [];
     this.bench.pause();
     this.state = { ...defaults, knobs: {}, ...state };
+    this.state.runs = this.state.runs.map((name) => fittingRun(name, this.methods, this.told));
     await this.openFile(this.fileOf(this.state.case));
   }
 

@@ -20,6 +20,7 @@ const ofRun = {
   growth: (bench, run) => shown(bench.words?.mode?.growth?.[run.name], digits),
   energy: (bench, run) => shown(energyShare(bench, run), percent),
   error: (bench, run) => shown(bench.reading(run)?.position, (x) => quantity(x, "m")),
+  worst: (bench, run) => shown(metric(run, "position_error"), (x) => quantity(x, "m")),
   turn: (bench, run) => shown(bench.reading(run)?.orientation, (x) => quantity(x, "rad")),
   orthonormality: (bench, run) => shown(bench.reading(run)?.orthonormality, digits),
   drift: (bench, run) => shown(metric(run, "energy_drift_synchronised"), percent),
@@ -30,7 +31,7 @@ const ofRun = {
 
 const shown = (value, write) => (isNumber(value) ? write(value) : "…");
 const omegaDt = (bench) => (bench.words?.mode ? bench.words.mode.frequency * bench.dt : NaN);
-const spinDt = (bench) => Math.hypot(...(bench.facts.scene.bodies[0].angular_velocity ?? [NaN])) * bench.dt;
+const spinDt = (bench) => bench.facts.spin * bench.dt;
 
 function energyShare(bench, run) {
   const first = bench.reading(run, 0),

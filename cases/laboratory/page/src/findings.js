@@ -1,6 +1,6 @@
 // What happens, and why: a row of figures for each run, and the sentences of the report on them.
 import { el, replace } from "../../../report/html/page/src/dom.js";
-import { isNumber, percent, quantity } from "../../../report/html/page/src/format.js";
+import { digits, isNumber, percent, quantity } from "../../../report/html/page/src/format.js";
 import { shortName } from "./run_names.js";
 
 export class Findings {
@@ -34,16 +34,16 @@ export class Findings {
     this.tick();
   }
 
-  // Without a reason to give, the figures in words.
+  // Without a reason to give, the figures in words: distances, or angles where nothing moves away.
   plain() {
     const { bench } = this.app;
-    if (bench.done === 0) return "Press play, or one step.";
-    const rows = bench.runs
-      .map((run) => [run, bench.reading(run)])
-      .filter(([, now]) => now && isNumber(now.position))
-      .sort((a, b) => a[1].position - b[1].position);
+    if (bench.done === 0) return "Press play, or take one step.";
+    const rows = bench.runs.map((run) => [run, bench.reading(run)]).filter(([, now]) => now && isNumber(now.position));
     if (rows.length === 0) return "";
-    const say = ([run, now]) => `${shortName(run.name)} is ${quantity(now.position, "m")} from the truth`;
+    const isTurning = rows.every(([, now]) => now.position < 1e-12),
+      size = (now) => (isTurning ? now.orientation : now.position);
+    const say = ([run, now]) => `${shortName(run.name)} is ${quantity(size(now), isTurning ? "rad" : "m")} from the truth${lost(now)}`;
+    rows.sort((a, b) => size(a[1]) - size(b[1]));
     return `After ${bench.time.toFixed(2)} s ${rows.map(say).join("; ")}.`;
   }
 
@@ -69,6 +69,9 @@ export class Findings {
   }
 }
 
+const lost = ({ orthonormality }) =>
+  orthonormality > 1e-3 ? `, and its matrix is no rotation any more (|RᵀR − I| = ${digits(orthonormality)})` : "";
+
 // First why something failed, as the report says it; then what the step does to the stiffest spring.
 function sentencesOf(words) {
   if (!words?.ok) return [];
@@ -92,7 +95,7 @@ function truthWords(truth) {
   if (!truth) return "The truth is being solved …";
   if (!truth.table) return `There is no truth to compare with: ${truth.whyNone ?? "none is known"}.`;
   if (truth.provisional) {
-    const why = truth.whyNone ? ` (no truth: ${truth.whyNone})` : " until the truth is solved";
+    const why = truth.whyNone ? ` (no truth: ${truth.whyNone})` : " until the truth is solved, which may take a minute";
     return `Compared with the core's dormand-prince at a tolerance of 1e-12${why}.`;
   }
   const { table, columns } = truth,

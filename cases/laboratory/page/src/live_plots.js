@@ -1,14 +1,14 @@
 // Energy, errors and orthonormality over time, while the runs go on.
 import uPlot from "uplot";
 import { el, replace } from "../../../report/html/page/src/dom.js";
-import { quantity } from "../../../report/html/page/src/format.js";
+import { digits, quantity } from "../../../report/html/page/src/format.js";
 import { linear, logarithmic } from "../../../report/html/page/src/plot_scales.js";
 import { colour, isDark, onTheme } from "../../../report/html/page/src/theme.js";
 import { colours, dashes } from "./colours.js";
 
 const height = 150;
 const mostPoints = 1200; // of a line: more are not to be seen
-const tooSmall = 1e-17;
+const tooSmall = 1e-12; // below it a plot shows only rounding
 
 // `column`: of a reading (bench.js).
 export const plots = [
@@ -67,9 +67,9 @@ export class LivePlots {
       times = [];
     for (let n = 0; n < count; n += every) times.push(n * bench.dt);
     const thin = courses.map((course) => times.map((_, i) => course[i * every] ?? NaN));
-    const scale = isLog ? logarithmic(thin) : linear(plot.unit, tameRange(thin));
+    const scale = isLog ? logarithmic(thin) : linear(plot.unit, tameRange(thin, bench.runs));
     const data = [times, ...thin.map((values) => values.map((v) => (Number.isFinite(v) ? scale.put(v) : null)))];
-    one.scale = scale;
+    Object.assign(one, { scale, isLog });
     const width = Math.max(100, Math.floor(one.holder.clientWidth || this.root.clientWidth));
     if (!one.chart || one.count !== courses.length) {
       one.chart?.destroy();
@@ -89,7 +89,7 @@ export class LivePlots {
       text.textContent = Number.isFinite(value) ? (plot.unit ? quantity(value, plot.unit) : quantity(value, "", 2)) : "–";
     });
     const isEmpty = courses.every((course) => course.every((v) => !(Math.abs(v) > tooSmall)));
-    figure.classList.toggle("is-empty", isEmpty);
+    figure.classList.toggle("is-empty", isEmpty && !this.only);
   }
 
   options(one, count, width) {
@@ -118,7 +118,7 @@ export class LivePlots {
           ...axis,
           size: 62,
           splits: (u, i, low, high, step) => one.scale.splits?.() ?? evenly(low, high, step),
-          values: (u, ticks) => ticks.map((t) => one.scale.tick(t)),
+          values: (u, ticks) => ticks.map(one.isLog ? one.scale.tick : (t) => `${digits(t, 5)} ${one.plot.unit}`),
         },
       ],
       series: [{}, ...Array.from({ length: count }, line)],
@@ -140,19 +140,13 @@ function evenly(low, high, step) {
   return splits;
 }
 
-// Of the runs that stay within ten times the least range of all. One that explodes would make the others a line.
-function tameRange(courses) {
-  const ranges = courses
-    .map((values) => values.filter(Number.isFinite))
-    .filter((values) => values.length > 0)
-    .map((values) => [Math.min(...values), Math.max(...values)]);
-  if (ranges.length === 0) return null;
-  const sizes = ranges.map(([low, high]) => high - low);
-  const least = Math.min(...sizes.filter((size) => size > 0));
-  const tame = ranges.filter((_, k) => sizes[k] <= 10 * least);
-  if (tame.length === 0 || tame.length === ranges.length) return null;
-  const low = Math.min(...tame.map((r) => r[0])),
-    high = Math.max(...tame.map((r) => r[1]));
-  return [low - 0.6 * (high - low), high + 0.6 * (high - low)];
+// Of the runs that did not blow up. One that did would make the others a line.
+function tameRange(courses, runs) {
+  const hasBlownUp = (run) => run.cell?.verdict?.word === "blown up" || run.ended !== "",
+    tame = courses.filter((_, k) => !hasBlownUp(runs[k])).flat().filter(Number.isFinite);
+  if (tame.length === 0 || !runs.some(hasBlownUp)) return null;
+  const low = Math.min(...tame),
+    high = Math.max(...tame),
+    room = 0.6 * (high - low) || 0.1 * Math.abs(high) || 1;
+  return [low - room, high + room];
 }
-
