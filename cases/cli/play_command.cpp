@@ -1,16 +1,20 @@
 // rigor play: opens the laboratory in the browser. The scene stands in the page's address.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <system_error>
+#include <vector>
 
-#include "adapters/engines.h"
+#include "cases/case/suite.h"
 #include "cases/cli/browser.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "core/base/error.h"
+#include "core/base/near_match.h"
 
 #ifndef RIGOR_PLAY_PAGE
 #define RIGOR_PLAY_PAGE "build/release/play/index.html"
@@ -40,37 +44,40 @@ fs::path file_that_leads_to(const std::string& address) {
   return file;
 }
 
+// Throws InputError for a case that the page does not carry.
+std::string case_id_of(const std::string& word) {
+  const std::vector<std::string> ids = suite_ids(default_suite_dir());
+  if (std::find(ids.begin(), ids.end(), word) != ids.end()) return word;
+  std::error_code error;
+  if (fs::exists(word, error))
+    throw InputError(
+        fmt::format("rigor play: {} is no case of the suite; run 'rigor play' and drop the file onto the page", word));
+  throw InputError(
+      fmt::format("rigor play: there is no case '{}'{}; rigor list cases names them", word, did_you_mean(word, ids)));
+}
+
 class PlayCommand : public Command {
  public:
-  void declare(Options& options) override { cases_.declare(options); }
+  void declare(Options& options) override { options.add_words(words_); }
 
-  int run(const Invocation& invocation) override {
+  int run(const Invocation&) override {
+    if (words_.size() > 1)
+      throw InputError(fmt::format("rigor play: found {} cases; allowed: at most one", words_.size()));
+    const std::string place = words_.empty() ? "" : "#/" + escaped(case_id_of(words_.front()));
     const fs::path page = RIGOR_PLAY_PAGE;
     std::error_code error;
     if (!fs::is_regular_file(page, error))
       throw InputError(
           fmt::format("rigor play: there is no {}; 'cases/setup release play' builds the laboratory", page.string()));
-    const std::string address = "file://" + escaped(page.string()) + place_of(invocation);
-    const std::string why = why_not_shown(cases_.words.empty() ? page.string() : file_that_leads_to(address).string());
+    const std::string address = "file://" + escaped(page.string()) + place;
+    const std::string why = why_not_shown(place.empty() ? page.string() : file_that_leads_to(address).string());
     if (why.empty()) return kGood;
     say(fmt::format("{}; open this address in a browser: {}", why, address));
     return kBroken;
   }
 
  private:
-  // The page carries the suite, and no file from elsewhere.
-  std::string place_of(const Invocation& invocation) const {
-    if (cases_.words.empty()) return "";
-    const Case chosen = the_case(cases_, invocation, engines());
-    if (fs::exists(cases_.words.front()) && chosen.id == cases_.words.front())
-      throw InputError(
-          fmt::format("rigor play: {} is not a case of the suite; run 'rigor play' and drop the file onto "
-                      "the page",
-                      chosen.id));
-    return "#/" + escaped(chosen.id);
-  }
-
-  CaseWords cases_;
+  std::vector<std::string> words_;
 };
 
 }  // namespace
