@@ -102,6 +102,6 @@ function truthWords(truth) {
     rows = table.length / columns;
   let sure = 0;
   while (sure < rows && !(table[(sure + 1) * columns - 1] > 1e-6)) ++sure;
-  const until = sure < rows ? `, certain to 1 µm until ${((sure - 1) * truth.dt).toFixed(2)} s` : "";
-  return `Truth: ${truth.kind}${until}; its own error at the start is ${quantity(table[columns - 1], "m")}.`;
+  if (sure < rows) return `Truth: ${truth.kind}, certain to 1 µm until ${(Math.max(0, sure - 1) * truth.dt).toFixed(2)} s.`;
+  return `Truth: ${truth.kind}; its own error stays below ${digits(Math.max(table[table.length - 1], 1e-16))} m.`;
 }

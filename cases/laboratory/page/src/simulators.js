@@ -1,7 +1,9 @@
 // The simulators: each in a worker of its own, so that the page stays fluid, and one that traps costs its panel alone.
 const unpacked = async (id) => {
   const text = document.getElementById(id).textContent;
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const raw = atob(text),
+    bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
 };
