@@ -67,7 +67,7 @@ export class LivePlots {
       times = [];
     for (let n = 0; n < count; n += every) times.push(n * bench.dt);
     const thin = courses.map((course) => times.map((_, i) => course[i * every] ?? NaN));
-    const scale = isLog ? logarithmic(thin) : linear(plot.unit, tameRange(thin, bench.runs));
+    const scale = isLog ? logarithmic(thin) : linear(plot.unit, tameRange(thin, bench));
     const data = [times, ...thin.map((values) => values.map((v) => (Number.isFinite(v) ? scale.put(v) : null)))];
     Object.assign(one, { scale, isLog });
     const width = Math.max(100, Math.floor(one.holder.clientWidth || this.root.clientWidth));
@@ -140,11 +140,16 @@ function evenly(low, high, step) {
   return splits;
 }
 
-// Of the runs that did not blow up. One that did would make the others a line.
-function tameRange(courses, runs) {
+// Of the runs that did not blow up. One that did would make the others a line. Where all did, some times the energy in
+// play shows how it began.
+function tameRange(courses, { runs, truth }) {
   const hasBlownUp = (run) => run.cell?.verdict?.word === "blown up" || run.ended !== "",
-    tame = courses.filter((_, k) => !hasBlownUp(runs[k])).flat().filter(Number.isFinite);
-  if (tame.length === 0 || !runs.some(hasBlownUp)) return null;
+    finite = courses.map((values) => values.filter(Number.isFinite)),
+    tame = finite.filter((_, k) => !hasBlownUp(runs[k])).flat();
+  if (!runs.some(hasBlownUp)) return null;
+  const first = finite[0]?.[0] ?? 0,
+    most = 12 * (truth?.kinetic || Math.abs(first) || 1);
+  if (tame.length === 0) return [first - most / 6, first + most];
   const low = Math.min(...tame),
     high = Math.max(...tame),
     room = 0.6 * (high - low) || 0.1 * Math.abs(high) || 1;

@@ -54,8 +54,8 @@ export class OwnFile {
       to = Math.min(lines.length, line + linesAround),
       shown = [];
     for (let n = from; line > 0 && n <= to; ++n) {
-      const text = `${String(n).padStart(4)}  ${lines[n - 1]}\n`;
-      shown.push(n === line ? el("mark", {}, text) : text);
+      const text = `${String(n).padStart(4)}  ${lines[n - 1]}`;
+      shown.push(n === line ? el("mark", {}, text) : text, "\n");
     }
     replace(
       this.root,
