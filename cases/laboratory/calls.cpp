@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "adapters/engines.h"
+#include "adapters/plugin/process_engine.h"
 #include "cases/analysis/repeats/recorded_states.h"
 #include "cases/case/case_reader.h"
 #include "cases/laboratory/experiment.h"
@@ -58,20 +58,33 @@ Json json_of(const MethodInfo& method) {
 
 const EngineInfo& core() { return engines().info_of("core"); }
 
-Json methods_json() {
+// An engine from outside stands for its first method.
+Json methods_json(const EngineTable& engines) {
   Json methods = Json::array();
   for (const MethodInfo& method : core().methods) methods.push_back(json_of(method));
+  for (const EngineInfo& engine : engines.infos()) {
+    if (engine.is_in_house) continue;
+    Json row = json_of(engine.methods.front());
+    row["name"] = engine.name, row["engine"] = engine.name + " " + engine.version;
+    methods.push_back(row);
+  }
   return methods;
 }
 
-// Why the core's methods do not take the scene, by name; those that do are missing.
-Json refusals(const Scene& scene) {
+// Why methods do not take the scene, by name; those that do are missing.
+Json refusals(const EngineTable& engines, const Scene& scene) {
   Json why = Json::object();
   for (const MethodInfo& method : core().methods) {
     Settings settings;
     settings.method = method.name;
     const std::string reason = why_unsupported(core(), settings, scene, 0);
     if (!reason.empty()) why[method.name] = reason;
+  }
+  for (const EngineInfo& engine : engines.infos()) {
+    Settings settings;
+    settings.method = engine.methods.front().name;
+    const std::string reason = engine.is_in_house ? "" : why_unsupported(engine, settings, scene, 0);
+    if (!reason.empty()) why[engine.name] = reason;
   }
   return why;
 }
@@ -142,7 +155,7 @@ double largest_spin(const Scene& scene) {
   return largest;
 }
 
-Json facts_of(const Case& read) {
+Json facts_of(const EngineTable& engines, const Case& read) {
   Json steps = Json::array(), knobs = Json::array();
   for (const StepSize& dt : read.dt) steps.push_back(dt.text);
   for (const Knob& knob : knobs_of(read.scene)) knobs.push_back(json_of(knob));
@@ -154,12 +167,12 @@ Json facts_of(const Case& read) {
           {"truth", read.truth},
           {"spin", largest_spin(read.scene)},
           {"knobs", knobs},
-          {"lacks", refusals(read.scene)},
+          {"lacks", refusals(engines, read.scene)},
           {"contact_lacks", contact_refusals(read.scene)},
           {"scene", rigor::json_of(read.scene)}};
 }
 
-Json explained(const Case& changed, const StepSize& dt, const Json& rows) {
+Json explained(const EngineTable& engines, const Case& changed, const StepSize& dt, const Json& rows) {
   std::vector<LiveRun> runs;
   std::vector<std::string> names;
   CaseResult result;
@@ -171,7 +184,7 @@ Json explained(const Case& changed, const StepSize& dt, const Json& rows) {
     runs.push_back({names.back(), result.cells[0]});
   }
   Json sentences = Json::array();
-  for (const Message& message : live_explanations(changed, dt, runs))
+  for (const Message& message : live_explanations(engines, changed, dt, runs))
     sentences.push_back({{"topic", message.topic}, {"text", message.text}});
   Json answer = {{"ok", true}, {"sentences", sentences}};
   if (const auto mode = stiffest_mode(changed, dt, names)) {
@@ -201,14 +214,29 @@ Json hashes_of_run(const Case& changed, const std::string& run, const StepSize& 
 LaboratoryCalls::LaboratoryCalls() = default;
 LaboratoryCalls::~LaboratoryCalls() = default;
 
-Json LaboratoryCalls::methods(const Request&) { return {{"ok", true}, {"methods", methods_json()}}; }
+Json LaboratoryCalls::methods(const Request&) { return {{"ok", true}, {"methods", methods_json(engines_)}}; }
 
-Json LaboratoryCalls::read(const Request& request) { return facts_of(request.as_written()); }
+Json LaboratoryCalls::engine(const Request& request) {
+  constexpr double kLimit = 60;  // s of a request
+  const PluginStart start{request.text("command"), kLimit, -1};
+  std::unique_ptr<ProcessEngine> engine;
+  if (request.json.contains("info")) {
+    PluginInfo info = read_plugin_info(request.json.at("info").dump(), start.command);
+    engine = std::make_unique<ProcessEngine>(start, std::move(info));
+  } else {
+    engine = std::make_unique<ProcessEngine>(start);
+  }
+  const std::string name = engine->info().name;
+  engines_.add(std::move(engine));
+  return {{"ok", true}, {"engine", name}};
+}
+
+Json LaboratoryCalls::read(const Request& request) { return facts_of(engines_, request.as_written()); }
 
 Json LaboratoryCalls::load(const Request& request) {
   const Case changed = request.changed();
-  experiment_ =
-      std::make_unique<Experiment>(changed.scene, request.text("run"), request.dt().seconds, changed.duration);
+  experiment_ = std::make_unique<Experiment>(engines_, changed.scene, request.text("run"), request.dt().seconds,
+                                             changed.duration);
   Json settings = Json::array();
   for (const auto& [name, value] : experiment_->settings()) settings.push_back({name, value});
   append(experiment_->reading(0), numbers_);
@@ -263,7 +291,7 @@ Json LaboratoryCalls::judge(const Request&) {
 }
 
 Json LaboratoryCalls::explain(const Request& request) {
-  return explained(request.changed(), request.dt(), request.json.at("runs"));
+  return explained(engines_, request.changed(), request.dt(), request.json.at("runs"));
 }
 
 Json LaboratoryCalls::hashes(const Request& request) {
@@ -277,11 +305,12 @@ Experiment& LaboratoryCalls::loaded() const {
 
 Json LaboratoryCalls::answer_to(const Request& request) {
   static const std::map<std::string, Json (LaboratoryCalls::*)(const Request&)> table = {
-      {"compare", &LaboratoryCalls::compare}, {"explain", &LaboratoryCalls::explain},
-      {"hashes", &LaboratoryCalls::hashes},   {"judge", &LaboratoryCalls::judge},
-      {"load", &LaboratoryCalls::load},       {"methods", &LaboratoryCalls::methods},
-      {"read", &LaboratoryCalls::read},       {"readings", &LaboratoryCalls::readings},
-      {"step", &LaboratoryCalls::step},       {"truth", &LaboratoryCalls::truth},
+      {"compare", &LaboratoryCalls::compare},   {"engine", &LaboratoryCalls::engine},
+      {"explain", &LaboratoryCalls::explain},   {"hashes", &LaboratoryCalls::hashes},
+      {"judge", &LaboratoryCalls::judge},       {"load", &LaboratoryCalls::load},
+      {"methods", &LaboratoryCalls::methods},   {"read", &LaboratoryCalls::read},
+      {"readings", &LaboratoryCalls::readings}, {"step", &LaboratoryCalls::step},
+      {"truth", &LaboratoryCalls::truth},
   };
   const std::string name = request.text("call");
   const auto found = table.find(name);

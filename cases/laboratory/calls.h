@@ -1,7 +1,10 @@
 // The laboratory's calls: JSON in, JSON and columns of numbers out. They know no browser: a page calls them in
 // WebAssembly, a test natively.
 //
-//   {"call":"methods"}                                  the core's methods, their options and choices
+//   {"call":"engine","command":C,"info":{…}}            adds an engine from outside, a process C; without "info" it is
+//   asked
+//   {"call":"methods"}                                  the core's methods and the engines from outside, with their
+//   options
 //   {"call":"read","path":P,"text":T}                   what a case file holds: scene, duration, knobs, what each
 //   method lacks
 //   {"call":"load", …,"knobs":{…},"run":R,"dt":D}       makes the run of this instance anew; its settings
@@ -22,6 +25,7 @@
 #include <string_view>
 #include <vector>
 
+#include "adapters/engines.h"
 #include "core/base/json_fwd.h"
 
 namespace rigor {
@@ -42,6 +46,7 @@ class LaboratoryCalls {
   struct Request;
   Json answer_to(const Request& request);
   Json compare(const Request& request);
+  Json engine(const Request& request);
   Json explain(const Request& request);
   Json hashes(const Request& request);
   Json judge(const Request& request);
@@ -53,6 +58,7 @@ class LaboratoryCalls {
   Json truth(const Request& request);
   Experiment& loaded() const;  // throws InputError before the first "load"
 
+  EngineTable engines_ = built_in_engines();
   std::unique_ptr<Experiment> experiment_;
   std::vector<double> numbers_, given_;  // of the answer, and of the request
 };

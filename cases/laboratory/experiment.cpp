@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "adapters/engines.h"
 #include "cases/metrics/stability.h"
 #include "cases/runner/simulate.h"
 #include "core/base/error.h"
@@ -25,14 +24,14 @@ constexpr const char* kJudged[] = {"energy_drift",      "energy_drift_synchronis
 
 }  // namespace
 
-Experiment::Experiment(Scene scene, const std::string& run, double dt, double duration)
+Experiment::Experiment(const EngineTable& engines, Scene scene, const std::string& run, double dt, double duration)
     : scene_(std::move(scene)), dt_(dt), duration_(duration), steps_(steps_in(duration, dt)) {
-  const RunName name = parse_run_name(run, engines().infos());
-  const EngineInfo& info = engines().info_of(name.engine);
+  const RunName name = parse_run_name(run, engines.infos());
+  const EngineInfo& info = engines.info_of(name.engine);
   const std::string reason = why_unsupported(info, name.settings, scene_, dt);
   if (!reason.empty()) throw InputError(reason);
   name_ = name.text, stagger_ = method_of(info, name.settings).leapfrog_stagger;
-  world_ = engines().find(name.engine).load(scene_, name.settings);
+  world_ = engines.find(name.engine).load(scene_, name.settings);
   const double states = static_cast<double>(steps_) * static_cast<double>(scene_.bodies.size());
   every_ = std::max(1L, std::lround(std::ceil(states / kMostKept)));
   kept_.dt = dt;

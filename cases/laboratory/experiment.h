@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/engines.h"
 #include "cases/laboratory/true_motion.h"
 #include "cases/results/results.h"
 #include "core/engine/engine.h"
@@ -28,7 +29,7 @@ class Experiment {
  public:
   // Throws InputError for a run that is not in the table of engines, and with the reason where it does not take the
   // scene.
-  Experiment(Scene scene, const std::string& run, double dt, double duration);
+  Experiment(const EngineTable& engines, Scene scene, const std::string& run, double dt, double duration);
 
   // False at the end of the duration, after a state that is not finite, and after a step that fails; see why_ended().
   bool step();

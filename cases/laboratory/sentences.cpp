@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "adapters/engines.h"
 #include "cases/analysis/small_motions/oscillator_growth.h"
 #include "cases/analysis/small_motions/small_motions.h"
 #include "cases/report/wording/explanations/explanation.h"
@@ -26,9 +25,10 @@ ForceElement::Kind kind_of_stiffest(const SmallMotions& motions) {
 
 }  // namespace
 
-std::vector<Message> live_explanations(const Case& changed, const StepSize& dt, const std::vector<LiveRun>& runs) {
+std::vector<Message> live_explanations(const EngineTable& engines, const Case& changed, const StepSize& dt,
+                                       const std::vector<LiveRun>& runs) {
   Results results;
-  results.engines = engines().infos();
+  results.engines = engines.infos();
   CaseResult result;
   result.definition = changed;
   result.definition.dt = {dt};

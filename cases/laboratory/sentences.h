@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/engines.h"
 #include "cases/case/case.h"
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
@@ -18,7 +19,8 @@ struct LiveRun {
 };
 
 // The report's own explanations of these runs, as of a case with one step. `changed` is the case with its sliders.
-std::vector<Message> live_explanations(const Case& changed, const StepSize& dt, const std::vector<LiveRun>& runs);
+std::vector<Message> live_explanations(const EngineTable& engines, const Case& changed, const StepSize& dt,
+                                       const std::vector<LiveRun>& runs);
 
 // The stiffest spring mode at the start, and what one step makes of its energy: measured by stepping that oscillator.
 struct LiveMode {

@@ -1,6 +1,7 @@
 // The laboratory's calls as a page makes them: JSON in, JSON and numbers out.
 #include "cases/laboratory/calls.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdint>
@@ -129,6 +130,21 @@ BOOST_AUTO_TEST_CASE(hashes_are_those_of_rigor_repeat) {
   BOOST_TEST_REQUIRE(digits.size() == 16 * due.size());
   for (std::size_t n = 0; n < due.size(); ++n)
     BOOST_TEST(std::stoull(digits.substr(16 * n, 16), nullptr, 16) == due[n]);
+}
+
+BOOST_AUTO_TEST_CASE(an_engine_from_outside_runs_beside_the_core) {
+  LaboratoryCalls calls;
+  const Json added = answered(
+      calls, {{"call", "engine"}, {"command", "python3 " RIGOR_SOURCE_DIR "/adapters/plugin/examples/toy.py"}});
+  const std::string name = added.at("engine");
+  Json load = request("load", "ballistic/projectile");
+  load["run"] = name, load["dt"] = "1/30";
+  answered(calls, load);
+  BOOST_TEST(answered(calls, {{"call", "step"}, {"count", 5}}).at("steps") == 5);
+  const Json methods = answered(calls, {{"call", "methods"}}).at("methods");
+  const bool is_listed =
+      std::any_of(methods.begin(), methods.end(), [&](const Json& one) { return one.at("name") == name; });
+  BOOST_TEST(is_listed);
 }
 
 BOOST_AUTO_TEST_CASE(wrong_calls_are_answered_and_never_thrown) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "adapters/engines.h"
 #include "cases/metrics/verdict.h"
 #include "core/base/error.h"
 #include "tests/scenes.h"
@@ -43,7 +44,7 @@ void run_to_end(Experiment& run) {
 
 BOOST_AUTO_TEST_CASE(semi_implicit_euler_falls_g_dt_t_half_too_far) {
   const Case made = case_of(falling(), "projectile", 1);
-  Experiment run(made.scene, "core:semi-implicit-euler", kDt, made.duration);
+  Experiment run(engines(), made.scene, "core:semi-implicit-euler", kDt, made.duration);
   run.compare_with(truth_table(made, true_motion(made), kDt));
   run_to_end(run);
   BOOST_TEST(run.readings() == 33u);
@@ -60,7 +61,8 @@ BOOST_AUTO_TEST_CASE(semi_implicit_euler_falls_g_dt_t_half_too_far) {
 
 BOOST_AUTO_TEST_CASE(a_truth_that_comes_late_gives_the_same_errors) {
   const Case made = case_of(falling(), "projectile", 1);
-  Experiment early(made.scene, "core:explicit-euler", kDt, 1), late(made.scene, "core:explicit-euler", kDt, 1);
+  Experiment early(engines(), made.scene, "core:explicit-euler", kDt, 1),
+      late(engines(), made.scene, "core:explicit-euler", kDt, 1);
   early.compare_with(truth_table(made, true_motion(made), kDt));
   run_to_end(early), run_to_end(late);
   BOOST_TEST(std::isnan(late.reading(5).position_error));
@@ -73,7 +75,7 @@ BOOST_AUTO_TEST_CASE(an_added_matrix_stretches_by_its_law) {
   Scene scene;
   scene.bodies = {body("ball", 1, {1, 1, 1})};
   scene.bodies[0].angular_velocity = {0, 0, 2};
-  Experiment run(scene, "core:semi-implicit-euler,orientation=matrix-additive", kDt, 2);
+  Experiment run(engines(), scene, "core:semi-implicit-euler,orientation=matrix-additive", kDt, 2);
   run_to_end(run);
   for (std::size_t n = 0; n < run.readings(); ++n) {
     const double expected = std::sqrt(2.0) * (std::pow(1 + 4 * kDt * kDt, static_cast<double>(n)) - 1);
@@ -83,7 +85,7 @@ BOOST_AUTO_TEST_CASE(an_added_matrix_stretches_by_its_law) {
 
 BOOST_AUTO_TEST_CASE(a_run_that_explodes_is_judged_and_ends) {
   const Case made = case_of(fixed_spring(), "reference", 5);
-  Experiment run(made.scene, "core:explicit-euler", 1.0 / 30, made.duration);
+  Experiment run(engines(), made.scene, "core:explicit-euler", 1.0 / 30, made.duration);
   run_to_end(run);
   const Cell cell = run.judge();
   BOOST_TEST((cell.stability.verdict == Verdict::blown_up));
@@ -120,10 +122,10 @@ BOOST_AUTO_TEST_CASE(a_changed_scene_gets_another_truth) {
 
 BOOST_AUTO_TEST_CASE(what_a_method_lacks_is_said) {
   Scene scene = fixed_spring();
-  BOOST_CHECK_THROW(Experiment(scene, "core:rk5", kDt, 1), InputError);
+  BOOST_CHECK_THROW(Experiment(engines(), scene, "core:rk5", kDt, 1), InputError);
   Joint joint{.a = kWorld, .b = 0, .type = BallJoint{{0, 0.5, 0}}};
   scene.joints.push_back(joint);
-  BOOST_CHECK_THROW(Experiment(scene, "core:adams", kDt, 1), InputError);
+  BOOST_CHECK_THROW(Experiment(engines(), scene, "core:adams", kDt, 1), InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,4 +1,5 @@
 // The bench: one scene, up to four runs in simulators of their own, the truth, and the clock that all of them keep.
+import { kindOf } from "./run_names.js";
 import { Simulator } from "./simulators.js";
 
 const perReading = 5; // time, energy, orthonormality, position error, orientation error (calls.cpp)
@@ -44,7 +45,7 @@ export class Bench {
     const mine = ++this.generation;
     Object.assign(this, { file, facts, knobs, dtText, duration: facts.duration, done: 0, truth: null, words: null });
     this.runs.forEach((run) => this.retire(run.simulator));
-    this.runs = names.map((name) => ({ name, simulator: this.taken(), readings: [], poses: null, ended: "", why: "" }));
+    this.runs = names.map((name) => ({ name, simulator: this.taken(kindOf(name)), readings: [], poses: null, ended: "", why: "" }));
     this.solveTruth(mine);
     await Promise.all(this.runs.map((run) => this.loadRun(run)));
     if (mine !== this.generation) return;
@@ -66,8 +67,9 @@ export class Bench {
   }
 
   // Simulators that are idle are used again; a busy one is of no more use.
-  taken() {
-    return this.pool.pop() ?? new Simulator();
+  taken(kind) {
+    const at = this.pool.findIndex((one) => one.kind === kind);
+    return at < 0 ? new Simulator(kind) : this.pool.splice(at, 1)[0];
   }
   retire(simulator) {
     if (simulator.isBusy || simulator.hasTrapped || this.pool.length > 4) simulator.close();

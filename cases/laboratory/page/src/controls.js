@@ -99,7 +99,7 @@ export class Controls {
       { "aria-label": `Method ${k + 1}`, title: row.summary, onchange: (event) => this.setRun(k, { method: event.target.value, options: keptOptions(parts.options, methods.find((one) => one.name === event.target.value)) }) },
       methods.map((one) => {
         const lacks = facts.lacks[one.name];
-        const label = one.twin_of ? `${one.name} (the scheme of ${engineNames[one.twin_of] ?? one.twin_of})` : one.name;
+        const label = one.engine ?? (one.twin_of ? `${one.name} (the scheme of ${engineNames[one.twin_of] ?? one.twin_of})` : one.name);
         return el("option", { value: one.name, selected: one.name === parts.method, disabled: Boolean(lacks), title: lacks ?? one.summary }, label + (lacks ? " – not here" : ""));
       }),
     );

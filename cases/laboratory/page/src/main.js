@@ -15,6 +15,13 @@ const lacking = () =>
     .filter(([lacks]) => lacks)
     .map(([, name]) => name);
 
+// The page with engines of the npm registry, or back to the smaller one; with the same state.
+function otherPage() {
+  const link = JSON.parse(document.getElementById("rigor-link")?.textContent ?? "null");
+  if (!link) return null;
+  return el("a.quiet", { id: "other-page", href: link.file, onclick: (event) => (event.target.href = link.file + location.hash) }, link.text);
+}
+
 async function start() {
   applyTheme();
   const lacks = lacking();
@@ -29,6 +36,7 @@ async function start() {
       el("span.brand", {}, "Rigor"),
       el("span.tagline", {}, "A laboratory for the steps of rigid-body simulators"),
       el("span.spacer"),
+      otherPage(),
       el("button.quiet", { type: "button", id: "keys", title: "Keys (?)", "aria-label": "Keys and help", onclick: openKeys }, "?"),
       themeButton(),
     ),

@@ -1,5 +1,11 @@
 // Names of runs, as everywhere in Rigor: core:METHOD,orientation=…,contact=….
 import { nearestWord } from "./nearest.js";
+import { outside } from "./simulators.js";
+
+const isOutside = (name) => outside.some((one) => one.name === name);
+
+// The worker that a run needs (simulators.js).
+export const kindOf = (name) => (isOutside(partsOf(name).method) ? partsOf(name).method : "core");
 
 export function partsOf(name) {
   const [method, ...options] = name.replace(/^core:/, "").split(",");
@@ -10,7 +16,7 @@ export function nameOf({ method, options }) {
   const texts = Object.entries(options)
     .filter(([, value]) => value)
     .map(([name, value]) => `${name}=${value}`);
-  return [`core:${method}`, ...texts].join(",");
+  return [isOutside(method) ? method : `core:${method}`, ...texts].join(",");
 }
 
 export const shortName = (name) => name.replace(/^core:/, "").replaceAll("orientation=", "").replaceAll("contact=", "");

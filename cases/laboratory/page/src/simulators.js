@@ -13,26 +13,33 @@ const asText = (buffer) => new TextDecoder().decode(buffer);
 // The cases of the suite that the page carries: [{ id, text }].
 export const carriedCases = async () => JSON.parse(asText(await unpacked("rigor-cases")));
 
-let prepared = null;
-const prepare = () =>
-  (prepared ??= (async () => {
-    const [script, wasm] = await Promise.all([unpacked("rigor-worker"), unpacked("rigor-wasm")]);
-    return {
-      // A page in a file has no address that a worker may be loaded from; a blob has one everywhere.
-      address: URL.createObjectURL(new Blob([script], { type: "text/javascript" })),
-      module: await WebAssembly.compile(wasm),
-    };
-  })());
+// The engines from outside that the page carries: [{ name, info }]. Each has a worker's script of its own.
+export const outside = JSON.parse(document.getElementById("rigor-engines")?.textContent ?? "[]");
+
+let compiled = null;
+const compile = () => (compiled ??= unpacked("rigor-wasm").then((wasm) => WebAssembly.compile(wasm)));
+
+// A page in a file has no address that a worker may be loaded from; a blob has one everywhere.
+const addresses = new Map();
+function addressOf(kind) {
+  if (!addresses.has(kind)) {
+    const script = unpacked(kind === "core" ? "rigor-worker" : `rigor-worker-${kind}`);
+    addresses.set(kind, script.then((text) => URL.createObjectURL(new Blob([text], { type: "text/javascript" }))));
+  }
+  return addresses.get(kind);
+}
 
 export class Simulator {
-  constructor() {
+  // `kind`: "core", or the name of an engine from outside.
+  constructor(kind = "core") {
+    this.kind = kind;
     this.waiting = new Map();
     this.last = 0;
     this.started = this.start();
   }
 
   async start() {
-    const { address, module } = await prepare();
+    const [address, module] = await Promise.all([addressOf(this.kind), compile()]);
     if (this.closed) return;
     this.worker = new Worker(address);
     this.worker.onmessage = ({ data: { id, answer, numbers } }) => {
@@ -43,6 +50,7 @@ export class Simulator {
     };
     this.worker.onerror = (event) => this.fail(event.message ?? "its script failed");
     await this.send({ module });
+    for (const { name, info } of outside) await this.send({ request: { call: "engine", command: name, info } });
   }
 
   send(message, transfer = []) {

@@ -6,6 +6,7 @@ let instance = null;
 
 self.onmessage = async ({ data: { id, module, request, numbers } }) => {
   try {
+    await self.rigorReady; // of an engine from outside; nothing in the core's worker
     if (module) instance = await instanceOf(self.makeRigor ?? makeRigor, module);
     const answer = request ? instance.call(request, numbers) : { ok: true };
     const given = answer.numbers ?? new Float64Array();
