@@ -30,7 +30,7 @@ add_custom_command(OUTPUT ${play_build}/qhull-fetched
   COMMAND ${CMAKE_COMMAND} -E touch ${play_build}/qhull-fetched
   COMMENT "Fetching the source of Qhull" VERBATIM)
 
-file(GLOB_RECURSE simulator_sources CONFIGURE_DEPENDS ../core/*.h ../core/*.cpp ../adapters/common/* ../adapters/ode/ode_twin*
+file(GLOB_RECURSE simulator_sources CONFIGURE_DEPENDS ../core/*.h ../core/*.cpp ../adapters/common/* ../adapters/plugin/*.h ../adapters/plugin/*.cpp ../adapters/ode/ode_twin*
   ../adapters/bullet/bullet_twin* truth/*.h truth/*.cpp metrics/*.h metrics/*.cpp case/*.h case/*.cpp results/*.h results/*.cpp
   analysis/*.h analysis/*.cpp report/wording/*.h report/wording/*.cpp laboratory/*.h laboratory/*.cpp)
 add_custom_command(OUTPUT ${play_build}/wasm/rigor_play.wasm
@@ -41,10 +41,23 @@ add_custom_command(OUTPUT ${play_build}/wasm/rigor_play.wasm
   DEPENDS ${play_build}/qhull-fetched ${simulator_sources} ${room}/wasm/CMakeLists.txt
   COMMENT "Compiling the simulators for WebAssembly" VERBATIM)
 
+# Engines of the npm registry that need no file at run time; engines.html has them beside the core.
+set(RIGOR_PLAY_ENGINES rapier jolt CACHE STRING "Files of adapters/plugin/examples/npm that the laboratory carries")
+set(engines ${play_build}/npm)
+file(MAKE_DIRECTORY ${engines})
+file(GLOB engine_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/adapters/plugin/examples/npm/*.mjs ${PROJECT_SOURCE_DIR}/adapters/plugin/examples/npm/package*.json)
+add_custom_command(OUTPUT ${engines}/installed
+  COMMAND ${CMAKE_COMMAND} -E copy ${engine_files} ${engines}
+  COMMAND ${RIGOR_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
+  COMMAND ${CMAKE_COMMAND} -E touch ${engines}/installed
+  DEPENDS ${engine_files} WORKING_DIRECTORY ${engines}
+  COMMENT "Installing engines of the npm registry for the laboratory" VERBATIM)
+
 file(GLOB_RECURSE play_sources CONFIGURE_DEPENDS ${room}/page/* report/html/page/src/* suite/*.toml)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/play)
 add_custom_command(OUTPUT ${RIGOR_PLAY_PAGE}
   COMMAND ${RIGOR_NODE} ${room}/page/build.mjs ${RIGOR_PAGE_MODULES} ${play_build}/wasm ${CMAKE_CURRENT_SOURCE_DIR}/suite ${RIGOR_PLAY_PAGE}
-  DEPENDS ${play_build}/wasm/rigor_play.wasm ${page_build}/installed ${play_sources}
+    ${engines} ${RIGOR_PLAY_ENGINES}
+  DEPENDS ${play_build}/wasm/rigor_play.wasm ${page_build}/installed ${engines}/installed ${play_sources}
   COMMENT "Bundling the laboratory's page" VERBATIM)
 add_custom_target(play DEPENDS ${RIGOR_PLAY_PAGE})

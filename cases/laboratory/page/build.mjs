@@ -78,7 +78,7 @@ async function engineOf(name) {
     ...common,
     ...{ stdin: { contents: `${entry}\nimport ${JSON.stringify(resolve(file))};`, resolveDir: here }, format: "esm", target: "es2022" },
     ...{ define: { "import.meta.url": '""' } },
-    ...{ alias: { "node:fs": join(here, "src/no_files.js") }, nodePaths: [join(engineFolder, "node_modules"), modules] },
+    ...{ alias: { "node:fs": join(here, "src/no_files.js"), "node:module": join(here, "src/no_files.js") }, nodePaths: [join(engineFolder, "node_modules"), modules] },
   });
   const told = execFileSync(process.execPath, [file], { input: '{"rigor":1,"call":"info"}\n', encoding: "utf8", stdio: ["pipe", "pipe", "ignore"] });
   // A worker that is a module cannot be loaded from a page in a file. As a function the module may still wait.

@@ -246,6 +246,25 @@ try {
       await quiet();
     });
   }
+  await check("the other page has Rapier and Jolt beside the core, with the same state", async () => {
+    await open("#/contact/collision?runs=core:velocity-verlet,contact=event&dt=1/60&restitution=0.25");
+    await click("#other-page");
+    await until("location.pathname.endsWith('engines.html') && document.documentElement.dataset.ready", "the other page", 30);
+    await inAddress("restitution=0.25");
+    await click("#add-run"), await until("document.querySelectorAll('.run-row').length === 2", "a second run");
+    await pick(".run-row:nth-of-type(2) select", "rapier");
+    await inAddress("~rapier");
+    await click("#add-run"), await until("document.querySelectorAll('.run-row').length === 3", "a third run");
+    await pick(".run-row:nth-of-type(3) select", "jolt");
+    await inAddress("~jolt");
+    await until("!document.querySelector('.now').textContent.includes('–')", "figures of all", 30);
+    await pick("#speed", "4");
+    await click("#play");
+    await atStep(300);
+    for (const run of ["rapier", "jolt"]) matches(await text(`.now [data-run='${run}'] td:nth-of-type(2)`), /m$/, `the error of ${run}`);
+    await shoot("engines-1400");
+    await quiet();
+  });
   for (const [width, dark] of [[1400, false], [400, true]]) {
     await check(`at ${width} px nothing is too wide, and axe-core finds nothing`, async () => {
       await browser.emulate(width, 900, { dark, touch: width < 600 });

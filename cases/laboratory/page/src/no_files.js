@@ -4,3 +4,4 @@ const none = () => {
 };
 export const readSync = none;
 export const writeSync = none;
+export const createRequire = none;
