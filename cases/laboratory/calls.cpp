@@ -22,6 +22,7 @@
 #include "core/base/names_of.h"
 #include "core/base/near_match.h"
 #include "core/engine/run_name.h"
+#include "core/scene/contact_laws.h"
 
 namespace rigor {
 namespace {
@@ -166,6 +167,7 @@ Json facts_of(const EngineTable& engines, const Case& read) {
           {"dt", steps},
           {"truth", read.truth},
           {"spin", largest_spin(read.scene)},
+          {"touches", anything_can_touch(read.scene)},
           {"knobs", knobs},
           {"lacks", refusals(engines, read.scene)},
           {"contact_lacks", contact_refusals(read.scene)},

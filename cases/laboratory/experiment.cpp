@@ -96,6 +96,7 @@ void Experiment::compare_with(TruthTable truth) {
   if (truth.rows() > 0 && truth.bodies != scene_.bodies.size())
     throw InputError("the truth has other bodies than the scene");
   truth_ = std::move(truth);
+  for (LiveReading& reading : readings_) reading.position_error = reading.orientation_error = kUnknown;
   for (const Sample& sample : kept_.samples) {
     const auto step = static_cast<std::size_t>(std::lround(sample.time / dt_));
     note_error(step, sample.bodies.columns(), readings_[step]);

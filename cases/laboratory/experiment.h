@@ -33,7 +33,7 @@ class Experiment {
 
   // False at the end of the duration, after a state that is not finite, and after a step that fails; see why_ended().
   bool step();
-  // Sets the truth, for errors from t = 0 on. Its dt must be the run's.
+  // Sets the truth, for errors from t = 0 on. Its dt must be the run's. Without rows there are no errors.
   void compare_with(TruthTable truth);
 
   double time() const { return now_.time; }

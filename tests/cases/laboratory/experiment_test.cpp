@@ -69,6 +69,8 @@ BOOST_AUTO_TEST_CASE(a_truth_that_comes_late_gives_the_same_errors) {
   late.compare_with(truth_table(made, true_motion(made), kDt));
   for (std::size_t n = 0; n < early.readings(); ++n)
     BOOST_TEST(early.reading(n).position_error == late.reading(n).position_error);
+  late.compare_with({.dt = kDt, .bodies = 1, .numbers = {}, .kind = ""});
+  BOOST_TEST(std::isnan(late.reading(5).position_error));
 }
 
 BOOST_AUTO_TEST_CASE(an_added_matrix_stretches_by_its_law) {

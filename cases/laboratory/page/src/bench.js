@@ -85,10 +85,17 @@ export class Bench {
       const answer = await solver.call({ call: "truth", ...what, provisional });
       if (mine !== this.generation || answer.is_closed) return;
       if (answer.ok) await this.compare(answer, mine);
-      else if (!provisional) this.truth = { ...this.truth, whyNone: answer.why };
+      else if (!provisional) await this.doWithoutTruth(answer.why, mine);
       this.onChange("truth");
     }
     this.tell();
+  }
+
+  // Where bodies touch, small differences soon make other motions: then the stand-in is no measure either.
+  async doWithoutTruth(whyNone, mine) {
+    const { table, columns, ...header } = this.truth ?? {};
+    if (this.facts.touches && table) await this.compare({ ...header, numbers: new Float64Array() }, mine);
+    this.truth = this.facts.touches ? { ...header, whyNone } : { ...this.truth, whyNone };
   }
 
   async compare({ numbers, ok, ...header }, mine) {

@@ -39,12 +39,20 @@ export class Findings {
     const { bench } = this.app;
     if (bench.done === 0) return "Press play, or take one step.";
     const rows = bench.runs.map((run) => [run, bench.reading(run)]).filter(([, now]) => now && isNumber(now.position));
-    if (rows.length === 0) return "";
+    if (rows.length === 0) return this.energies();
     const isTurning = rows.every(([, now]) => now.position < 1e-12),
       size = (now) => (isTurning ? now.orientation : now.position);
     const say = ([run, now]) => `${shortName(run.name)} is ${quantity(size(now), isTurning ? "rad" : "m")} from the truth${lost(now)}`;
     rows.sort((a, b) => size(a[1]) - size(b[1]));
     return `After ${bench.time.toFixed(2)} s ${rows.map(say).join("; ")}.`;
+  }
+
+  // Of scenes without a truth.
+  energies() {
+    const { bench } = this.app,
+      shares = bench.runs.map((run) => [shortName(run.name), energyShare(bench, run)]).filter(([, share]) => share);
+    const say = ([name, share]) => `${share} by ${name}`;
+    return shares.length > 0 ? `After ${bench.time.toFixed(2)} s the energy has changed, of the energy in play: ${shares.map(say).join("; ")}.` : "";
   }
 
   tick() {
