@@ -37,7 +37,8 @@ const std::vector<Chain> kChains = {
     {"core/dynamics", {"kernels", "model", "joints", "integrators", "collision", "contact"}},
     {"cases/report",
      {"", "wording", "csv", "json", "console", "markdown", "github", "junit", "html", "site", "scene", "trace"}},
-    {"cases", {"import", "case", "truth", "metrics", "results", "runner", "gates", "analysis", "report", "cli"}},
+    {"cases",
+     {"import", "case", "truth", "metrics", "results", "runner", "gates", "analysis", "report", "laboratory", "cli"}},
 };
 
 // A table of rows: it alone includes what all rooms of its folder have.

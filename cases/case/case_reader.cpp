@@ -91,7 +91,8 @@ Case read_case(const std::string& path, const std::string& id, const Vocabulary&
   return read_case_text(read_text_file(path), path, id, words);
 }
 
-Case read_case_text(const std::string& text, const std::string& path, const std::string& id, const Vocabulary& words) {
+Case read_case_text(const std::string& text, const std::string& path, const std::string& id, const Vocabulary& words,
+                    Gates gates) {
   const TomlFile file = TomlFile::parse(text, path);
   const TableReader root = file.root(case_keys());
   Case out;
@@ -102,8 +103,9 @@ Case read_case_text(const std::string& text, const std::string& path, const std:
   out.scene = read_scene(root.at("scene"));
   read_run(root.at("run").table({"duration", "dt", "ensemble"}), out);
   if (const auto truth = root.find("truth")) read_truth(truth->table(truth_keys()), words, out);
-  if (const auto gates = root.find("gate")) {
-    for (const TableReader& table : gates->tables(gate_keys())) {
+  const auto found = gates == Gates::read ? root.find("gate") : std::nullopt;
+  if (found) {
+    for (const TableReader& table : found->tables(gate_keys())) {
       for (Gate& gate : gates_of(read_gate_table(table, words), out)) out.gates.push_back(std::move(gate));
       check_not_held_to_itself(table, words, out);
     }

@@ -20,6 +20,7 @@ CommandRow list_row();
 CommandRow merge_row();
 CommandRow new_row();
 CommandRow open_row();
+CommandRow play_row();
 CommandRow repeat_row();
 CommandRow run_row();
 CommandRow settle_row();
@@ -64,10 +65,10 @@ const std::vector<NamedFact>& environment_variables() {
 
 const std::vector<CommandRow>& commands() {
   static const std::vector<CommandRow> table = {
-      list_row(),  run_row(),     gate_row(),     sweep_row(),   tune_row(),   fit_row(),
-      merge_row(), compare_row(), baseline_row(), history_row(), site_row(),   open_row(),
-      trace_row(), truth_row(),   new_row(),      import_row(),  export_row(), settle_row(),
-      show_row(),  conform_row(), diagnose_row(), diverge_row(), repeat_row(), completion_row(),
+      list_row(),     run_row(),      gate_row(),    sweep_row(),      tune_row(),   fit_row(),  merge_row(),
+      compare_row(),  baseline_row(), history_row(), site_row(),       open_row(),   play_row(), trace_row(),
+      truth_row(),    new_row(),      import_row(),  export_row(),     settle_row(), show_row(), conform_row(),
+      diagnose_row(), diverge_row(),  repeat_row(),  completion_row(),
   };
   return table;
 }

@@ -151,7 +151,7 @@ def contents(places, pages, headers):
     rooms = [f"rooms/{room}/README.md" for room in ROOMS]
     return "".join([
         toctree("Concepts", [f"concepts/{n}" for n in ("measurement", "truths", "scheme-replicas", "contact-methods", "steps")]),
-        toctree("How to", [f"guides/{n}" for n in ("own-case", "own-engine", "own-robot", "two-runs", "measured-motion", "python", "python-engines", "ci", "site", "embedding")]),
+        toctree("How to", [f"guides/{n}" for n in ("laboratory", "own-case", "own-engine", "own-robot", "two-runs", "measured-motion", "python", "python-engines", "ci", "site", "embedding")]),
         toctree("Reference", [f"reference/{name}" for name in pages] + [f"reference/{name}" for name, _ in SCHEMAS.values()]),
         toctree("API", [places[header] for header in headers]),
         toctree("Rooms", rooms + [p for p in below("rooms/") if p not in rooms]),

@@ -80,6 +80,26 @@ BOOST_AUTO_TEST_CASE(the_report_is_opened_by_the_desktop_or_it_says_where_it_is)
   BOOST_TEST(content("asked") == path("out/report.html") + "\n");
 }
 
+BOOST_AUTO_TEST_CASE(the_laboratory_is_opened_at_a_scene_or_it_says_how_to_build_it) {
+  const Answer wrong = run({"play", "contact/colision"});
+  BOOST_TEST((wrong.code == 2 && wrong.err.find("did you mean 'contact/collision'?") != std::string::npos), wrong.err);
+  folder.write("mine.toml", kThrown);
+  BOOST_TEST(run({"play", "mine.toml"}).err.find("drop the file onto the page") != std::string::npos);
+  BOOST_TEST(run({"play", "springs/net", "springs/ellipse"}).code == 2);
+  const std::string opener = folder.write("xdg-open", "#!/bin/sh\n/bin/cat \"$1\" > asked\n");
+  std::filesystem::permissions(opener, std::filesystem::perms::owner_all);
+  const std::string path_before = std::getenv("PATH");
+  setenv("PATH", folder.path.c_str(), 1);
+  const Answer shown = run({"play", "contact/collision"});
+  setenv("PATH", path_before.c_str(), 1);
+  if (std::filesystem::exists(RIGOR_BUILD_DIR "/play/index.html")) {
+    BOOST_TEST(shown.code == 0, shown.err);
+    BOOST_TEST(content("asked").find("/play/index.html#/contact/collision\"") != std::string::npos, content("asked"));
+  } else {
+    BOOST_TEST((shown.code == 2 && shown.err.find("cases/setup release play") != std::string::npos), shown.err);
+  }
+}
+
 // A shell reads what it is given, and completes each command and option of the table.
 BOOST_AUTO_TEST_CASE(completions_and_the_manual_know_every_command_and_option) {
   const Answer bash = run({"completion", "bash"}), zsh = run({"completion", "zsh"}), man = run({"completion", "man"});

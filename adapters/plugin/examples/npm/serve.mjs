@@ -72,7 +72,12 @@ function answer(state, line) {
   }
 }
 
+// A page has no pipes: there the engine stands in its host's own worker, which asks line by line (cases/laboratory/page).
 export function serve(engine) {
+  if (globalThis.rigorHost) {
+    const state = { engine, worlds: new Map() };
+    return globalThis.rigorHost((line) => JSON.stringify(answer(state, line)));
+  }
   const state = { engine, worlds: new Map() }, chunk = Buffer.alloc(1 << 16);
   let text = Buffer.alloc(0);
   for (let size; (size = readSync(0, chunk)) > 0; ) {

@@ -23,7 +23,7 @@ bool Clearance::all_stay_apart(const Pairs& pairs, const std::vector<ContactPoin
   if (may_have_touched_limit(from, to)) return false;
   return std::all_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
     const auto [a, b] = pair;
-    const auto is_of_pair = [a, b](const PersistentPoint& point) {
+    const auto is_of_pair = [a = a, b = b](const PersistentPoint& point) {
       return point.contact.a == a && point.contact.b == b;
     };
     if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair)) return true;

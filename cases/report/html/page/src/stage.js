@@ -6,6 +6,7 @@ import { el, replace } from "./dom.js";
 import { digits, quantity } from "./format.js";
 import { forceSegments, forcesAt, frictionOf, usualForce } from "./force_model.js";
 import { jointSegments, jointsOf } from "./joint_model.js";
+import { paneGrid as grid } from "./pane_grid.js";
 import { valueAt } from "./playback_data.js";
 import { contacts, drawables, extentOf, springsOf, up } from "./scene_model.js";
 import { onTheme } from "./theme.js";
@@ -356,13 +357,4 @@ export class Stage {
 function reachOf(low, high) {
   const half = 0.5 * Math.hypot(...low.map((v, k) => high[k] - v));
   return { low: low.map((v) => v - half), high: high.map((v) => v + half) };
-}
-
-function grid(panes, width, height) {
-  const columns = Math.ceil(Math.sqrt((panes.length * width) / Math.max(height, 1) / 1.3)) || 1,
-    rows = Math.ceil(panes.length / Math.min(columns, panes.length));
-  const across = Math.ceil(panes.length / rows),
-    w = width / across,
-    h = height / rows;
-  return panes.map((pane, i) => ({ ...pane, x: (i % across) * w, y: Math.floor(i / across) * h, width: w, height: h }));
 }
