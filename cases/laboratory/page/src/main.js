@@ -19,7 +19,11 @@ const lacking = () =>
 function otherPage() {
   const link = JSON.parse(document.getElementById("rigor-link")?.textContent ?? "null");
   if (!link) return null;
-  return el("a.quiet", { id: "other-page", href: link.file, onclick: (event) => (event.target.href = link.file + location.hash) }, link.text);
+  return el(
+    "a.quiet",
+    { id: "other-page", href: link.file, onclick: (event) => (event.target.href = link.file + location.hash) },
+    link.text,
+  );
 }
 
 async function start() {
@@ -37,7 +41,11 @@ async function start() {
       el("span.tagline", {}, "A laboratory for the steps of rigid-body simulators"),
       el("span.spacer"),
       otherPage(),
-      el("button.quiet", { type: "button", id: "keys", title: "Keys (?)", "aria-label": "Keys and help", onclick: openKeys }, "?"),
+      el(
+        "button.quiet",
+        { type: "button", id: "keys", title: "Keys (?)", "aria-label": "Keys and help", onclick: openKeys },
+        "?",
+      ),
       themeButton(),
     ),
     body,
