@@ -3,13 +3,14 @@ import { kindOf } from "./run_names.js";
 import { Simulator } from "./simulators.js";
 
 const perReading = 5; // time, energy, orthonormality, position error, orientation error (calls.cpp)
+const atFirst = 3; // simulators of runs
 const longestCall = 60; // ms: more steps in one call, and the picture stutters
 
 export class Bench {
   constructor(onChange) {
     this.onChange = onChange; // (what) => …: "loaded", "stepped", "truth", "sentences"
     this.runs = [];
-    this.pool = [];
+    this.pool = Array.from({ length: atFirst }, () => new Simulator()); // they start while the page is built
     this.truth = null; // { table: Float64Array, columns, kind, provisional }
     this.playing = false;
     this.speed = 1;

@@ -3,7 +3,7 @@ import { el, replace } from "../../../report/html/page/src/dom.js";
 import { applyTheme, themeButton } from "../../../report/html/page/src/theme.js";
 import { App } from "./app.js";
 import { openKeys } from "./keys.js";
-import { carriedCases } from "./simulators.js";
+import { carriedCases, compile } from "./simulators.js";
 
 const page = document.getElementById("page");
 
@@ -30,6 +30,7 @@ async function start() {
   applyTheme();
   const lacks = lacking();
   if (lacks.length > 0) throw new Error(`this browser is too old for it: it lacks ${lacks.join(" and ")}`);
+  compile(); // takes longest
   const body = el("main.view");
   const app = new App(body, await carriedCases());
   replace(

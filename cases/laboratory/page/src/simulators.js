@@ -17,7 +17,7 @@ export const carriedCases = async () => JSON.parse(asText(await unpacked("rigor-
 export const outside = JSON.parse(document.getElementById("rigor-engines")?.textContent ?? "[]");
 
 let compiled = null;
-const compile = () => (compiled ??= unpacked("rigor-wasm").then((wasm) => WebAssembly.compile(wasm)));
+export const compile = () => (compiled ??= unpacked("rigor-wasm").then((wasm) => WebAssembly.compile(wasm)));
 
 // A page in a file has no address that a worker may be loaded from; a blob has one everywhere.
 const addresses = new Map();
