@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string escaped(const std::string& text) {
+std::string in_address(const std::string& text) {
   std::string out;
   for (const unsigned char c : text) {
     const bool is_plain = std::isalnum(c) != 0 || c == '/' || c == '-' || c == '_' || c == '.';
@@ -63,13 +63,13 @@ class PlayCommand : public Command {
   int run(const Invocation&) override {
     if (words_.size() > 1)
       throw InputError(fmt::format("rigor play: found {} cases; allowed: at most one", words_.size()));
-    const std::string place = words_.empty() ? "" : "#/" + escaped(case_id_of(words_.front()));
+    const std::string place = words_.empty() ? "" : "#/" + in_address(case_id_of(words_.front()));
     const fs::path page = RIGOR_PLAY_PAGE;
     std::error_code error;
     if (!fs::is_regular_file(page, error))
       throw InputError(
           fmt::format("rigor play: there is no {}; 'cases/setup release play' builds the laboratory", page.string()));
-    const std::string address = "file://" + escaped(page.string()) + place;
+    const std::string address = "file://" + in_address(page.string()) + place;
     const std::string why = why_not_shown(place.empty() ? page.string() : file_that_leads_to(address).string());
     if (why.empty()) return kGood;
     say(fmt::format("{}; open this address in a browser: {}", why, address));

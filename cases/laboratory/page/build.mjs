@@ -44,7 +44,8 @@ async function runnableCases() {
       text = readFileSync(file, "utf8"),
       facts = call({ call: "read", path: `${id}.toml`, text });
     if (!facts.ok) console.log(`left out: ${facts.why}`);
-    else if (methods.every((one) => facts.lacks[one.name])) console.log(`left out: ${id}: ${Object.values(facts.lacks)[0]}`);
+    else if (methods.every((one) => facts.lacks[one.name]))
+      console.log(`left out: ${id}: ${Object.values(facts.lacks)[0]}`);
     else cases.push({ id, title: facts.title, text });
   }
   return cases;
@@ -53,7 +54,8 @@ async function runnableCases() {
 const cases = await runnableCases();
 const packed = (data) => gzipSync(data, { level: 9 }).toString("base64");
 const block = (id, data) => `<script type="text/plain" id="${id}">${packed(data)}</script>`;
-const data = (id, value) => `<script type="application/json" id="${id}">${JSON.stringify(value).replaceAll("<", "\\u003c")}</script>`;
+const data = (id, value) =>
+  `<script type="application/json" id="${id}">${JSON.stringify(value).replaceAll("<", "\\u003c")}</script>`;
 if (/<\/script/i.test(script)) throw new Error("the bundle would end its own <script> element");
 const hash = `sha256-${createHash("sha256").update(script).digest("base64")}`;
 const policy =
@@ -64,7 +66,15 @@ const licences = ["three", "uplot"].map((name) => {
   const { version } = JSON.parse(readFileSync(join(modules, name, "package.json"), "utf8"));
   return `${name} ${version}\n${readFileSync(join(modules, name, "LICENSE"), "utf8")}`;
 });
-for (const name of ["libeigen3-dev", "libfmt-dev", "libtomlplusplus-dev", "nlohmann-json3-dev", "libboost-dev", "libqhull-dev", "emscripten"]) {
+for (const name of [
+  "libeigen3-dev",
+  "libfmt-dev",
+  "libtomlplusplus-dev",
+  "nlohmann-json3-dev",
+  "libboost-dev",
+  "libqhull-dev",
+  "emscripten",
+]) {
   const file = `/usr/share/doc/${name}/copyright`;
   if (existsSync(file)) licences.push(`${name}\n${readFileSync(file, "utf8")}`);
 }
@@ -73,14 +83,27 @@ writeFileSync(join(dirname(out), "licences.txt"), licences.join("\n\n"));
 // An engine as a worker's script, and what it says of itself.
 async function engineOf(name) {
   const file = join(engineFolder, `${name}.mjs`),
-    entry = ["engine_host.js", "worker.js"].map((one) => `import ${JSON.stringify(join(here, "src", one))};`).join("\n");
+    entry = ["engine_host.js", "worker.js"]
+      .map((one) => `import ${JSON.stringify(join(here, "src", one))};`)
+      .join("\n");
   const { outputFiles } = await esbuild.build({
     ...common,
-    ...{ stdin: { contents: `${entry}\nimport ${JSON.stringify(resolve(file))};`, resolveDir: here }, format: "esm", target: "es2022" },
+    ...{
+      stdin: { contents: `${entry}\nimport ${JSON.stringify(resolve(file))};`, resolveDir: here },
+      format: "esm",
+      target: "es2022",
+    },
     ...{ define: { "import.meta.url": '""' } },
-    ...{ alias: { "node:fs": join(here, "src/no_files.js"), "node:module": join(here, "src/no_files.js") }, nodePaths: [join(engineFolder, "node_modules"), modules] },
+    ...{
+      alias: { "node:fs": join(here, "src/no_files.js"), "node:module": join(here, "src/no_files.js") },
+      nodePaths: [join(engineFolder, "node_modules"), modules],
+    },
   });
-  const told = execFileSync(process.execPath, [file], { input: '{"rigor":1,"call":"info"}\n', encoding: "utf8", stdio: ["pipe", "pipe", "ignore"] });
+  const told = execFileSync(process.execPath, [file], {
+    input: '{"rigor":1,"call":"info"}\n',
+    encoding: "utf8",
+    stdio: ["pipe", "pipe", "ignore"],
+  });
   // A worker that is a module cannot be loaded from a page in a file. As a function the module may still wait.
   return { name, info: JSON.parse(told.split("\n")[0]), script: `${glue}(async () => {${outputFiles[0].text}})();` };
 }
@@ -104,7 +127,10 @@ ${style}</style>
 ${block("rigor-cases", JSON.stringify(cases))}
 ${block("rigor-worker", worker)}
 ${block("rigor-wasm", wasm)}
-${data("rigor-engines", carried.map(({ name, info }) => ({ name, info })))}
+${data(
+  "rigor-engines",
+  carried.map(({ name, info }) => ({ name, info })),
+)}
 ${data("rigor-link", link)}
 ${carried.map(({ name, script: text }) => block(`rigor-worker-${name}`, text)).join("\n")}
 <script>${script}</script>
@@ -119,4 +145,5 @@ function write(file, page) {
 console.log(`${cases.length} cases; the simulators have ${kB(gzipSync(wasm, { level: 9 }).length)} compressed`);
 const names = engines.map(({ info }) => info.name).join(" and ");
 write(out, pageWith([], engines.length > 0 ? { file: "engines.html", text: `with ${names}` } : null));
-if (engines.length > 0) write(join(dirname(out), "engines.html"), pageWith(engines, { file: "index.html", text: "the core alone" }));
+if (engines.length > 0)
+  write(join(dirname(out), "engines.html"), pageWith(engines, { file: "index.html", text: "the core alone" }));

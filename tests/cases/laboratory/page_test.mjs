@@ -37,12 +37,22 @@ const hash = () => run("return decodeURIComponent(location.hash)");
 const step = () => run("return Number(document.querySelector('main').dataset.step)");
 const until = (script, what, seconds) => browser.until(script, what, seconds);
 const atStep = (n) => until(`document.querySelector('main').dataset.step === '${n}'`, `step ${n}`);
-const inAddress = (part) => until(`decodeURIComponent(location.hash).includes(${JSON.stringify(part)})`, `${part} in the address`);
+const inAddress = (part) =>
+  until(`decodeURIComponent(location.hash).includes(${JSON.stringify(part)})`, `${part} in the address`);
 const pick = (selector, value) =>
-  run("const s = document.querySelector(arguments[0]); s.value = arguments[1]; s.dispatchEvent(new Event('change', { bubbles: true }))", selector, value);
+  run(
+    "const s = document.querySelector(arguments[0]); s.value = arguments[1]; s.dispatchEvent(new Event('change', { bubbles: true }))",
+    selector,
+    value,
+  );
 const slide = (selector, value) =>
-  run("const s = document.querySelector(arguments[0]); s.value = arguments[1]; s.dispatchEvent(new Event('input', { bubbles: true }))", selector, String(value));
-const shoot = async (name, whole = false) => writeFileSync(join(shots, `${name}.png`), await browser.screenshot({ whole }));
+  run(
+    "const s = document.querySelector(arguments[0]); s.value = arguments[1]; s.dispatchEvent(new Event('input', { bubbles: true }))",
+    selector,
+    String(value),
+  );
+const shoot = async (name, whole = false) =>
+  writeFileSync(join(shots, `${name}.png`), await browser.screenshot({ whole }));
 async function open(fragment = "") {
   await browser.goTo("about:blank");
   await browser.goTo(url + fragment);
@@ -92,9 +102,13 @@ try {
     await shoot("spring-1400");
   });
   await check("every plot has its lines, and the errors differ", async () => {
-    const names = await run("return [...document.querySelectorAll('.plot:not(.is-empty)')].map((one) => one.dataset.plot)");
+    const names = await run(
+      "return [...document.querySelectorAll('.plot:not(.is-empty)')].map((one) => one.dataset.plot)",
+    );
     for (const name of ["energy", "position", "orientation"]) expect(names.includes(name), `no plot of ${name}`);
-    const values = await run("return [...document.querySelectorAll('[data-plot=position] .readouts b')].map((one) => one.textContent)");
+    const values = await run(
+      "return [...document.querySelectorAll('[data-plot=position] .readouts b')].map((one) => one.textContent)",
+    );
     expect(new Set(values).size === 3, `the readouts are ${values}`);
   });
   await check("back to the start sets all to zero", async () => {
@@ -110,7 +124,12 @@ try {
     matches(await text("#clock"), /^0\.004 s/, "the clock");
   });
   await check("stiffness, damping, mass and gravity change the scene, and its own values come back", async () => {
-    for (const [name, value] of [["stiffness", 5], ["damping", 300], ["mass", 1], ["gravity", 5]]) {
+    for (const [name, value] of [
+      ["stiffness", 5],
+      ["damping", 300],
+      ["mass", 1],
+      ["gravity", 5],
+    ]) {
       await slide(`#knob-${name}`, value);
       await inAddress(`${name}=`);
     }
@@ -141,7 +160,12 @@ try {
   });
   await check("keys: space, right, r, s, o, g, l, f, +, -, <, >, ?", async () => {
     await run("document.activeElement.blur()");
-    for (const [key, part] of [["s", "layout=side"], ["g", "truth=0"], ["l", "log=0"], ["<", "dt=1/300"]]) {
+    for (const [key, part] of [
+      ["s", "layout=side"],
+      ["g", "truth=0"],
+      ["l", "log=0"],
+      ["<", "dt=1/300"],
+    ]) {
       await browser.keys(key);
       await inAddress(part);
     }
@@ -191,16 +215,30 @@ try {
   await check("a link shows the same to somebody else, bit by bit", async () => {
     await open("#/springs/fixed-spring?runs=core:rk4~core:velocity-verlet&dt=1/60&stiffness=20000&layout=side&at=77");
     await atStep(77);
-    await until("document.querySelectorAll('.now td').length > 0 && !document.querySelector('.now').textContent.includes('–')", "figures");
+    await until(
+      "document.querySelectorAll('.now td').length > 0 && !document.querySelector('.now').textContent.includes('–')",
+      "figures",
+    );
     const first = await text(".now");
     await open(await run("return location.hash"));
     await atStep(77);
     await until(`document.querySelector('.now').textContent === ${JSON.stringify(first)}`, "the same figures");
   });
   await check("wrong parts of an address become the nearest valid ones, and are told", async () => {
-    await open("#/springs/fixed-sprin?runs=core:explicit-eular,orientation=matrix-aditive&dt=1/31&stiffness=1e99&colour=3&mass=x&speed=3");
+    await open(
+      "#/springs/fixed-sprin?runs=core:explicit-eular,orientation=matrix-aditive&dt=1/31&stiffness=1e99&colour=3&mass=x&speed=3",
+    );
     const told = await text(".told");
-    for (const part of ["fixed-sprin", "explicit-euler", "matrix-additive", "1/30 s", "out of range", "colour", "Mass", "speed"])
+    for (const part of [
+      "fixed-sprin",
+      "explicit-euler",
+      "matrix-additive",
+      "1/30 s",
+      "out of range",
+      "colour",
+      "Mass",
+      "speed",
+    ])
       expect(told.includes(part), `not told: ${part}, in "${told}"`);
     await inAddress("core:explicit-euler,orientation=matrix-additive");
   });
@@ -211,19 +249,25 @@ try {
   });
   await check("a case file of one's own is shown", async () => {
     await open();
-    const scene = '# A stone.\ntitle = "<b>Stone</b>"\n[scene]\ngravity = [0, -9.8, 0]\n[[scene.body]]\nname = "stone"\nmass = 2\ninertia = [1, 1, 1]\n[run]\nduration = 1\ndt = ["1/30"]\n[truth]\nkind = "projectile"\n';
+    const scene =
+      '# A stone.\ntitle = "<b>Stone</b>"\n[scene]\ngravity = [0, -9.8, 0]\n[[scene.body]]\nname = "stone"\nmass = 2\ninertia = [1, 1, 1]\n[run]\nduration = 1\ndt = ["1/30"]\n[truth]\nkind = "projectile"\n';
     await choose("stone.toml", scene);
     await until("document.querySelector('h1').textContent === '<b>Stone</b>'", "its title as text");
     await until("document.querySelector('#truth-note').textContent.startsWith('Truth: projectile')", "its truth");
   });
   await check("a broken one is refused with its line marked", async () => {
-    await choose("broken.toml", 'title = "x"\n[scene]\n[[scene.body]]\nname = "stone"\nmas = 2\n[run]\nduration = 1\ndt = ["1/30"]\n');
+    await choose(
+      "broken.toml",
+      'title = "x"\n[scene]\n[[scene.body]]\nname = "stone"\nmas = 2\n[run]\nduration = 1\ndt = ["1/30"]\n',
+    );
     await until("document.querySelector('.own-file mark')", "the mark");
     matches(await text("#file-error"), /broken\.toml:5:/, "the message");
     matches(await text(".own-file mark"), /mas = 2/, "the marked line");
     await shoot("broken-file-1400");
   });
-  for (const id of await run("return [...document.querySelectorAll('[data-lesson]')].map((one) => one.dataset.lesson)")) {
+  for (const id of await run(
+    "return [...document.querySelectorAll('[data-lesson]')].map((one) => one.dataset.lesson)",
+  )) {
     await check(`lesson ${id}: five screens, each with its figures`, async () => {
       await open();
       await click(`[data-lesson=${id}]`);
@@ -231,8 +275,15 @@ try {
         await inAddress(`lesson=${id}.${screen}`);
         await pick("#speed", "4");
         await click("#play");
-        await until("document.querySelector('#play').ariaLabel === 'Play' && Number(document.querySelector('main').dataset.step) > 0", "its end", 40);
-        await until("document.querySelectorAll('.figure-now').length > 0 && [...document.querySelectorAll('.figure-now')].every((one) => one.textContent !== '…')", "figures");
+        await until(
+          "document.querySelector('#play').ariaLabel === 'Play' && Number(document.querySelector('main').dataset.step) > 0",
+          "its end",
+          40,
+        );
+        await until(
+          "document.querySelectorAll('.figure-now').length > 0 && [...document.querySelectorAll('.figure-now')].every((one) => one.textContent !== '…')",
+          "figures",
+        );
         expect((await text(".told")) === "", `told: ${await text(".told")}`);
         await shoot(`lesson-${id}-${screen}`);
         if (screen < 5) await click("[data-go=next]");
@@ -249,7 +300,11 @@ try {
   await check("the other page has Rapier and Jolt beside the core, with the same state", async () => {
     await open("#/contact/collision?runs=core:velocity-verlet,contact=event&dt=1/60&restitution=0.25");
     await click("#other-page");
-    await until("location.pathname.endsWith('engines.html') && document.documentElement.dataset.ready", "the other page", 30);
+    await until(
+      "location.pathname.endsWith('engines.html') && document.documentElement.dataset.ready",
+      "the other page",
+      30,
+    );
     await inAddress("restitution=0.25");
     await click("#add-run"), await until("document.querySelectorAll('.run-row').length === 2", "a second run");
     await pick(".run-row:nth-of-type(2) select", "rapier");
@@ -261,21 +316,30 @@ try {
     await pick("#speed", "4");
     await click("#play");
     await atStep(300);
-    for (const run of ["rapier", "jolt"]) matches(await text(`.now [data-run='${run}'] td:nth-of-type(2)`), /m$/, `the error of ${run}`);
+    for (const run of ["rapier", "jolt"])
+      matches(await text(`.now [data-run='${run}'] td:nth-of-type(2)`), /m$/, `the error of ${run}`);
     await shoot("engines-1400");
     await quiet();
   });
-  for (const [width, dark] of [[1400, false], [400, true]]) {
+  for (const [width, dark] of [
+    [1400, false],
+    [400, true],
+  ]) {
     await check(`at ${width} px nothing is too wide, and axe-core finds nothing`, async () => {
       await browser.emulate(width, 900, { dark, touch: width < 600 });
-      await open("#/springs/body-springs?runs=core:rk4~core:semi-implicit-euler,orientation=matrix-rodrigues&dt=1/60&at=40");
+      await open(
+        "#/springs/body-springs?runs=core:rk4~core:semi-implicit-euler,orientation=matrix-rodrigues&dt=1/60&at=40",
+      );
       await atStep(40);
       const over = await run("return document.documentElement.scrollWidth - document.documentElement.clientWidth");
       expect(over <= 0, `${over} px too wide`);
       await shoot(`whole-${width}`, true);
       await run(readFileSync(join(modules, "axe-core/axe.min.js"), "utf8") + "; window.axe = axe;");
       const { violations } = await browser.callLater("axe.run(document, {resultTypes: ['violations']})");
-      expect(violations.length === 0, violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(" ")}`).join("; "));
+      expect(
+        violations.length === 0,
+        violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(" ")}`).join("; "),
+      );
     });
   }
 } finally {

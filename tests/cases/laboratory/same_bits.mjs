@@ -10,11 +10,28 @@ import { join, resolve } from "node:path";
 import { instanceOf } from "../../../cases/laboratory/page/src/instance.js";
 
 const dt = "1/240";
-const smooth = ["springs/fixed-spring", "springs/body-springs", "ballistic/orientation-updates", "tops/dzhanibekov-box"];
-const methods = ["adams", "dormand-prince", "explicit-euler", "moser-veselov", "rk4", "rkmk4", "semi-implicit-euler", "symplectic4", "velocity-verlet"];
+const smooth = [
+  "springs/fixed-spring",
+  "springs/body-springs",
+  "ballistic/orientation-updates",
+  "tops/dzhanibekov-box",
+];
+const methods = [
+  "adams",
+  "dormand-prince",
+  "explicit-euler",
+  "moser-veselov",
+  "rk4",
+  "rkmk4",
+  "semi-implicit-euler",
+  "symplectic4",
+  "velocity-verlet",
+];
 const same = [
   ...methods.flatMap((method) => smooth.map((id) => [id, `core:${method}`])),
-  ...["rk4", "velocity-verlet"].flatMap((method) => ["contact/collision", "joints/double-pendulum", "springs/net"].map((id) => [id, `core:${method}`])),
+  ...["rk4", "velocity-verlet"].flatMap((method) =>
+    ["contact/collision", "joints/double-pendulum", "springs/net"].map((id) => [id, `core:${method}`]),
+  ),
 ];
 // Eigen sums in another order where it has vector instructions, as in the program (cases/docs/guides/laboratory.md).
 const different = [
@@ -50,7 +67,10 @@ async function firstDifference(id, run) {
 
 const asked = [];
 for (let k = 0; k + 1 < words.length; k += 2) asked.push([words[k], words[k + 1]]);
-const rows = asked.length > 0 ? asked.map((row) => [...row, null]) : [...same.map((row) => [...row, true]), ...different.map((row) => [...row, false])];
+const rows =
+  asked.length > 0
+    ? asked.map((row) => [...row, null])
+    : [...same.map((row) => [...row, true]), ...different.map((row) => [...row, false])];
 let wrong = 0;
 for (const [id, run, isSame] of rows) {
   const step = await firstDifference(id, run);

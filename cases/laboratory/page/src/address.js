@@ -45,7 +45,8 @@ export function stateOf(hash, cases, told) {
   if (given.has("runs")) {
     const names = given.get("runs").split("~").filter(Boolean);
     state.runs = names.slice(0, mostRuns);
-    if (names.length > mostRuns) told.push(`The address names ${names.length} methods; the first ${mostRuns} are shown.`);
+    if (names.length > mostRuns)
+      told.push(`The address names ${names.length} methods; the first ${mostRuns} are shown.`);
   }
   if (given.has("dt")) state.dt = stepOf(given.get("dt"), told);
   if (given.has("speed")) state.speed = nearestOf("speed", Number(given.get("speed")), speeds, told);
@@ -56,7 +57,8 @@ export function stateOf(hash, cases, told) {
   const at = Number(given.get("at") ?? 0);
   state.at = Number.isInteger(at) && at >= 0 ? at : 0;
   const known = ["runs", "dt", "speed", "layout", "truth", "log", "lesson", "at"];
-  for (const [name, text] of given) if (!known.includes(name)) state.knobs[name] = text === "infinite" ? text : Number(text);
+  for (const [name, text] of given)
+    if (!known.includes(name)) state.knobs[name] = text === "infinite" ? text : Number(text);
   return state;
 }
 

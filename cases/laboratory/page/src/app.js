@@ -120,7 +120,8 @@ export class App {
     if (what === "truth") this.picture.frameAll(this.bench.truth), this.plots.update();
     this.update();
     if (what === "loaded" || what === "sentences") this.findings.draw(), this.controls.drawRuns();
-    if (what === "stepped" && !this.bench.playing) this.plots.update(), (this.state.at = this.bench.done), this.writeAddress();
+    if (what === "stepped" && !this.bench.playing)
+      this.plots.update(), (this.state.at = this.bench.done), this.writeAddress();
   }
 
   showPlots() {
@@ -132,7 +133,10 @@ export class App {
     this.controls.tick();
     this.findings.tick();
     this.lesson.tick();
-    replace(this.notes, this.told.map((text) => el("p", {}, text)));
+    replace(
+      this.notes,
+      this.told.map((text) => el("p", {}, text)),
+    );
     const now = performance.now();
     if (now - (this.plotted ?? 0) > plotEvery) (this.plotted = now), this.plots.update();
     this.root.dataset.step = this.bench.done;

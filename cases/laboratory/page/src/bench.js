@@ -3,13 +3,14 @@ import { kindOf } from "./run_names.js";
 import { Simulator } from "./simulators.js";
 
 const perReading = 5; // time, energy, orthonormality, position error, orientation error (calls.cpp)
+const atFirst = 3; // simulators of runs
 const longestCall = 60; // ms: more steps in one call, and the picture stutters
 
 export class Bench {
   constructor(onChange) {
     this.onChange = onChange; // (what) => …: "loaded", "stepped", "truth", "sentences"
     this.runs = [];
-    this.pool = [];
+    this.pool = Array.from({ length: atFirst }, () => new Simulator()); // they start while the page is built
     this.truth = null; // { table: Float64Array, columns, kind, provisional }
     this.playing = false;
     this.speed = 1;
@@ -45,7 +46,14 @@ export class Bench {
     const mine = ++this.generation;
     Object.assign(this, { file, facts, knobs, dtText, duration: facts.duration, done: 0, truth: null, words: null });
     this.runs.forEach((run) => this.retire(run.simulator));
-    this.runs = names.map((name) => ({ name, simulator: this.taken(kindOf(name)), readings: [], poses: null, ended: "", why: "" }));
+    this.runs = names.map((name) => ({
+      name,
+      simulator: this.taken(kindOf(name)),
+      readings: [],
+      poses: null,
+      ended: "",
+      why: "",
+    }));
     this.solveTruth(mine);
     await Promise.all(this.runs.map((run) => this.loadRun(run)));
     if (mine !== this.generation) return;
@@ -109,7 +117,8 @@ export class Bench {
     }
   }
   async loaded(mine) {
-    while (mine === this.generation && this.runs.some((run) => !run.poses && !run.why)) await new Promise((r) => setTimeout(r, 5));
+    while (mine === this.generation && this.runs.some((run) => !run.poses && !run.why))
+      await new Promise((r) => setTimeout(r, 5));
   }
 
   // The truth's poses now; null where there is none.
@@ -198,7 +207,8 @@ export class Bench {
       if (answer.ok) rows.push({ run: run.name, cell: answer.cell });
       if (answer.ok) run.cell = JSON.parse(answer.cell).result;
     }
-    const words = mine === this.generation ? await this.reader.call({ call: "explain", ...this.what, runs: rows }) : null;
+    const words =
+      mine === this.generation ? await this.reader.call({ call: "explain", ...this.what, runs: rows }) : null;
     this.isTelling = false;
     if (words && mine === this.generation) (this.words = words), this.onChange("sentences");
     if (this.mustTellAgain) (this.mustTellAgain = false), this.tell();

@@ -3,6 +3,7 @@ import { el, replace } from "../../../report/html/page/src/dom.js";
 import { digits, quantity, seconds } from "../../../report/html/page/src/format.js";
 import { mostRuns, speeds, steps } from "./address.js";
 import { nameOf, partsOf, shortName } from "./run_names.js";
+import { slider } from "./slider.js";
 
 // Those of the course come first.
 export const ofCourse = [
@@ -42,8 +43,18 @@ export class Controls {
       "select",
       { id: "scene", onchange: (event) => this.app.change({ case: event.target.value, lesson: "" }) },
       isOwn ? el("option", { selected: true }, file.path) : null,
-      el("optgroup", { label: "The course" }, ofCourse.filter(([id]) => cases.some((one) => one.id === id)).map(([id, label]) => option(id, label))),
-      [...families].map(([family, rows]) => el("optgroup", { label: family }, rows.map(([id]) => option(id, id)))),
+      el(
+        "optgroup",
+        { label: "The course" },
+        ofCourse.filter(([id]) => cases.some((one) => one.id === id)).map(([id, label]) => option(id, label)),
+      ),
+      [...families].map(([family, rows]) =>
+        el(
+          "optgroup",
+          { label: family },
+          rows.map(([id]) => option(id, id)),
+        ),
+      ),
     );
     const about = aboutOf(file.text);
     replace(
@@ -84,7 +95,12 @@ export class Controls {
     const isOn = this.app.state[flag];
     return el(
       "button.quiet",
-      { type: "button", id: `flag-${flag}`, "aria-pressed": String(isOn), onclick: () => this.app.change({ [flag]: !isOn }) },
+      {
+        type: "button",
+        id: `flag-${flag}`,
+        "aria-pressed": String(isOn),
+        onclick: () => this.app.change({ [flag]: !isOn }),
+      },
       label,
     );
   }
@@ -96,11 +112,33 @@ export class Controls {
       row = methods.find((one) => one.name === parts.method);
     const method = el(
       "select",
-      { "aria-label": `Method ${k + 1}`, title: row.summary, onchange: (event) => this.setRun(k, { method: event.target.value, options: keptOptions(parts.options, methods.find((one) => one.name === event.target.value)) }) },
+      {
+        "aria-label": `Method ${k + 1}`,
+        title: row.summary,
+        onchange: (event) =>
+          this.setRun(k, {
+            method: event.target.value,
+            options: keptOptions(
+              parts.options,
+              methods.find((one) => one.name === event.target.value),
+            ),
+          }),
+      },
       methods.map((one) => {
         const lacks = facts.lacks[one.name];
-        const label = one.engine ?? (one.twin_of ? `${one.name} (the scheme of ${engineNames[one.twin_of] ?? one.twin_of})` : one.name);
-        return el("option", { value: one.name, selected: one.name === parts.method, disabled: Boolean(lacks), title: lacks ?? one.summary }, label + (lacks ? " – not here" : ""));
+        const label =
+          one.engine ??
+          (one.twin_of ? `${one.name} (the scheme of ${engineNames[one.twin_of] ?? one.twin_of})` : one.name);
+        return el(
+          "option",
+          {
+            value: one.name,
+            selected: one.name === parts.method,
+            disabled: Boolean(lacks),
+            title: lacks ?? one.summary,
+          },
+          label + (lacks ? " – not here" : ""),
+        );
       }),
     );
     const failure = bench.runs[k]?.why || bench.runs[k]?.ended;
@@ -110,9 +148,15 @@ export class Controls {
       el(`span.line.run-${k}`, { "aria-hidden": "true" }),
       method,
       this.optionSelect(k, parts, row, "orientation"),
-      Object.keys(facts.contact_lacks).length > 0 || this.hasContacts() ? this.optionSelect(k, parts, row, "contact") : null,
+      Object.keys(facts.contact_lacks).length > 0 || this.hasContacts()
+        ? this.optionSelect(k, parts, row, "contact")
+        : null,
       this.app.state.runs.length > 1
-        ? el("button.quiet", { type: "button", "aria-label": `Remove ${shortName(name)}`, onclick: () => this.removeRun(k) }, "✕")
+        ? el(
+            "button.quiet",
+            { type: "button", "aria-label": `Remove ${shortName(name)}`, onclick: () => this.removeRun(k) },
+            "✕",
+          )
         : null,
       failure ? el("p.error", {}, failure) : null,
     );
@@ -133,9 +177,22 @@ export class Controls {
         "data-option": name,
         onchange: (event) => this.setRun(k, { ...parts, options: { ...parts.options, [name]: event.target.value } }),
       },
-      el("option", { value: "", selected: !parts.options[name] }, `${name}: ${name === "contact" ? "as the core chooses" : option.default}`),
+      el(
+        "option",
+        { value: "", selected: !parts.options[name] },
+        `${name}: ${name === "contact" ? "as the core chooses" : option.default}`,
+      ),
       option.choices.map((choice) =>
-        el("option", { value: choice, selected: parts.options[name] === choice, disabled: Boolean(lacks[choice]), title: lacks[choice] ?? "" }, `${name}: ${choice}`),
+        el(
+          "option",
+          {
+            value: choice,
+            selected: parts.options[name] === choice,
+            disabled: Boolean(lacks[choice]),
+            title: lacks[choice] ?? "",
+          },
+          `${name}: ${choice}`,
+        ),
       ),
     );
   }
@@ -208,7 +265,12 @@ export class Controls {
         el(
           "label.infinite",
           {},
-          el("input", { type: "checkbox", checked: isInfinite, id: `knob-${knob.name}-infinite`, onchange: (event) => set(event.target.checked ? "infinite" : knob.value === "infinite" ? 0.5 : knob.value) }),
+          el("input", {
+            type: "checkbox",
+            checked: isInfinite,
+            id: `knob-${knob.name}-infinite`,
+            onchange: (event) => set(event.target.checked ? "infinite" : knob.value === "infinite" ? 0.5 : knob.value),
+          }),
           "infinite",
         ),
       );
@@ -217,11 +279,19 @@ export class Controls {
 
   buildTransport() {
     const button = (id, label, sign, action, isQuiet = true) =>
-      el(isQuiet ? "button.quiet" : "button.play", { type: "button", id, "aria-label": label, title: label, onclick: action }, sign);
+      el(
+        isQuiet ? "button.quiet" : "button.play",
+        { type: "button", id, "aria-label": label, title: label, onclick: action },
+        sign,
+      );
     this.playButton = button("play", "Play", "▶", () => this.app.togglePlay(), false);
     this.speed = el(
       "select",
-      { id: "speed", "aria-label": "Speed", onchange: (event) => this.app.change({ speed: Number(event.target.value) }) },
+      {
+        id: "speed",
+        "aria-label": "Speed",
+        onchange: (event) => this.app.change({ speed: Number(event.target.value) }),
+      },
       speeds.map((one) => el("option", { value: one }, one < 1 ? `slow: × ${one}` : `× ${one}`)),
     );
     this.clock = el("output.clock", { id: "clock" });
@@ -254,24 +324,6 @@ export class Controls {
     const at = steps.indexOf(this.app.state.dt) + by;
     if (steps[at]) this.app.change({ dt: steps[at] });
   }
-}
-
-// The text follows while the slider moves; the scene follows when it is let go, or a moment after.
-function slider({ id, label, text, min, max, step, value, isOff = false, set, show }) {
-  const output = el("output", { for: id }, text);
-  let waiting = 0;
-  const input = el("input", {
-    ...{ type: "range", id, min, max, step, "aria-valuetext": text, disabled: isOff },
-    oninput: (event) => {
-      const now = Number(event.target.value);
-      output.textContent = show(now);
-      event.target.setAttribute("aria-valuetext", show(now));
-      clearTimeout(waiting);
-      waiting = setTimeout(() => set(now), 250);
-    },
-  });
-  input.value = String(value);
-  return el("div.slider", {}, el("label", { for: id }, label), output, input);
 }
 
 const keptOptions = (options, method) =>

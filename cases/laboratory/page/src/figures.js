@@ -26,7 +26,8 @@ const ofRun = {
   drift: (bench, run) => shown(metric(run, "energy_drift_synchronised"), percent),
   gap: (bench, run) => shown(metric(run, "joint_gap"), (x) => quantity(x, "m")),
   height: (bench, run) => shown(run.poses?.[1], (x) => quantity(x, "m", 3)),
-  blown_up: (bench, run) => (run.cell?.verdict?.word === "blown up" ? `blown up at ${run.cell.verdict.time.toFixed(2)} s` : "still bounded"),
+  blown_up: (bench, run) =>
+    run.cell?.verdict?.word === "blown up" ? `blown up at ${run.cell.verdict.time.toFixed(2)} s` : "still bounded",
 };
 
 const shown = (value, write) => (isNumber(value) ? write(value) : "…");

@@ -17,7 +17,22 @@ export class Findings {
       el(
         "div.scroll",
         {},
-        el("table.plain.now", {}, el("thead", {}, el("tr", {}, ["method", "energy since the start", "error", "turned wrong", "verdict"].map((text) => el("th", { scope: "col" }, text)))), this.table),
+        el(
+          "table.plain.now",
+          {},
+          el(
+            "thead",
+            {},
+            el(
+              "tr",
+              {},
+              ["method", "energy since the start", "error", "turned wrong", "verdict"].map((text) =>
+                el("th", { scope: "col" }, text),
+              ),
+            ),
+          ),
+          this.table,
+        ),
       ),
       this.truthNote,
       this.more,
@@ -30,7 +45,10 @@ export class Findings {
       texts = sentencesOf(words);
     const first = texts[0] ?? this.plain();
     if (this.sentence.textContent !== first) this.sentence.textContent = first;
-    replace(this.more, texts.slice(1, 5).map((text) => el("p.fine", {}, text)));
+    replace(
+      this.more,
+      texts.slice(1, 5).map((text) => el("p.fine", {}, text)),
+    );
     this.tick();
   }
 
@@ -42,7 +60,8 @@ export class Findings {
     if (rows.length === 0) return this.energies();
     const isTurning = rows.every(([, now]) => now.position < 1e-12),
       size = (now) => (isTurning ? now.orientation : now.position);
-    const say = ([run, now]) => `${shortName(run.name)} is ${quantity(size(now), isTurning ? "rad" : "m")} from the truth${lost(now)}`;
+    const say = ([run, now]) =>
+      `${shortName(run.name)} is ${quantity(size(now), isTurning ? "rad" : "m")} from the truth${lost(now)}`;
     rows.sort((a, b) => size(a[1]) - size(b[1]));
     return `After ${bench.time.toFixed(2)} s ${rows.map(say).join("; ")}.`;
   }
@@ -52,12 +71,17 @@ export class Findings {
     const { bench } = this.app,
       shares = bench.runs.map((run) => [shortName(run.name), energyShare(bench, run)]).filter(([, share]) => share);
     const say = ([name, share]) => `${share} by ${name}`;
-    return shares.length > 0 ? `After ${bench.time.toFixed(2)} s the energy has changed, of the energy in play: ${shares.map(say).join("; ")}.` : "";
+    return shares.length > 0
+      ? `After ${bench.time.toFixed(2)} s the energy has changed, of the energy in play: ${shares.map(say).join("; ")}.`
+      : "";
   }
 
   tick() {
     const { bench } = this.app;
-    replace(this.table, bench.runs.map((run, k) => this.row(run, k)));
+    replace(
+      this.table,
+      bench.runs.map((run, k) => this.row(run, k)),
+    );
     this.truthNote.textContent = truthWords(bench.truth);
   }
 
@@ -65,14 +89,22 @@ export class Findings {
     const { bench } = this.app,
       now = bench.reading(run),
       verdict = run.cell?.verdict;
-    const cells = [energyShare(bench, run), now && quantity(now.position, "m"), now && quantity(now.orientation, "rad")];
+    const cells = [
+      energyShare(bench, run),
+      now && quantity(now.position, "m"),
+      now && quantity(now.orientation, "rad"),
+    ];
     const isBad = verdict?.word === "blown up" || run.ended;
     return el(
       "tr",
       { "data-run": run.name },
       el("th", { scope: "row" }, el(`span.line.run-${k}`, { "aria-hidden": "true" }), shortName(run.name)),
       cells.map((text) => el("td", {}, text ?? "–")),
-      el("td", {}, el(`span.word${isBad ? ".is-bad" : ""}`, {}, isBad ? `✕ ${verdict?.word ?? "ended"}` : (verdict?.word ?? ""))),
+      el(
+        "td",
+        {},
+        el(`span.word${isBad ? ".is-bad" : ""}`, {}, isBad ? `✕ ${verdict?.word ?? "ended"}` : (verdict?.word ?? "")),
+      ),
     );
   }
 }
@@ -110,6 +142,7 @@ function truthWords(truth) {
     rows = table.length / columns;
   let sure = 0;
   while (sure < rows && !(table[(sure + 1) * columns - 1] > 1e-6)) ++sure;
-  if (sure < rows) return `Truth: ${truth.kind}, certain to 1 µm until ${(Math.max(0, sure - 1) * truth.dt).toFixed(2)} s.`;
+  if (sure < rows)
+    return `Truth: ${truth.kind}, certain to 1 µm until ${(Math.max(0, sure - 1) * truth.dt).toFixed(2)} s.`;
   return `Truth: ${truth.kind}; its own error stays below ${digits(Math.max(table[table.length - 1], 1e-16))} m.`;
 }

@@ -18,8 +18,16 @@ export function openKeys() {
     "dialog",
     { "aria-label": "Keys" },
     el("h2", {}, "Keys"),
-    el("dl", {}, keys.map(([key, does]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, does)])),
-    el("p.fine", {}, "Drag the picture to turn it. Drop a case file anywhere on the page. The address holds all that is chosen: send it to show the same."),
+    el(
+      "dl",
+      {},
+      keys.map(([key, does]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, does)]),
+    ),
+    el(
+      "p.fine",
+      {},
+      "Drag the picture to turn it. Drop a case file anywhere on the page. The address holds all that is chosen: send it to show the same.",
+    ),
     el("form", { method: "dialog" }, el("button", { type: "submit" }, "Close")),
   );
   dialog.addEventListener("close", () => dialog.remove());

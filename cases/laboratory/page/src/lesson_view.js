@@ -49,10 +49,27 @@ export class LessonView {
     if (!this.screen)
       return void replace(
         this.root,
-        el("nav.lessons", { "aria-label": "Lessons" }, el("span.fine", {}, "Lessons:"), lessons.map((one) => el("button", { type: "button", "data-lesson": one.id, onclick: () => this.open(one, 0) }, one.title))),
+        el(
+          "nav.lessons",
+          { "aria-label": "Lessons" },
+          el("span.fine", {}, "Lessons:"),
+          lessons.map((one) =>
+            el("button", { type: "button", "data-lesson": one.id, onclick: () => this.open(one, 0) }, one.title),
+          ),
+        ),
       );
     const { lesson, at, screen } = this,
-      step = (by, label, isOn) => el("button", { type: "button", disabled: !isOn, "data-go": label.toLowerCase(), onclick: () => this.open(lesson, at + by) }, label);
+      step = (by, label, isOn) =>
+        el(
+          "button",
+          {
+            type: "button",
+            disabled: !isOn,
+            "data-go": label.toLowerCase(),
+            onclick: () => this.open(lesson, at + by),
+          },
+          label,
+        );
     this.figures = [];
     replace(
       this.root,
@@ -62,13 +79,24 @@ export class LessonView {
         el("p.fine", {}, `Lesson: ${lesson.title}, screen ${at + 1} of ${lesson.screens.length}`),
         el("h2", {}, screen.title),
         screen.text.map((text) => el("p", {}, this.filled(text))),
-        el("div.lesson-tools", {}, step(-1, "Back", at > 0), step(1, "Next", at + 1 < lesson.screens.length), this.again(), el("button.quiet", { type: "button", "data-go": "leave", onclick: () => this.close() }, "leave the lesson")),
+        el(
+          "div.lesson-tools",
+          {},
+          step(-1, "Back", at > 0),
+          step(1, "Next", at + 1 < lesson.screens.length),
+          this.again(),
+          el("button.quiet", { type: "button", "data-go": "leave", onclick: () => this.close() }, "leave the lesson"),
+        ),
       ),
     );
   }
 
   again() {
-    return el("button.quiet", { type: "button", "data-go": "again", onclick: () => this.open(this.lesson, this.at) }, "set this screen up again");
+    return el(
+      "button.quiet",
+      { type: "button", "data-go": "again", onclick: () => this.open(this.lesson, this.at) },
+      "set this screen up again",
+    );
   }
 
   // {NAME} and {NAME K} become figures of the scene, or of run K.

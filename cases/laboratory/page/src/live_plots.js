@@ -15,7 +15,13 @@ export const plots = [
   { name: "energy", title: "Energy", unit: "J", column: 1, isLog: false },
   { name: "position", title: "Distance from the truth", unit: "m", column: 3, isLog: true },
   { name: "orientation", title: "Angle from the truth", unit: "rad", column: 4, isLog: true },
-  { name: "orthonormality", title: "|RᵀR − I|: how far the matrix is from a rotation", unit: "", column: 2, isLog: true },
+  {
+    name: "orthonormality",
+    title: "|RᵀR − I|: how far the matrix is from a rotation",
+    unit: "",
+    column: 2,
+    isLog: true,
+  },
 ];
 
 export class LivePlots {
@@ -36,7 +42,10 @@ export class LivePlots {
     if (!this.bench) return;
     this.charts.forEach((one) => one.chart?.destroy());
     this.charts = plots.filter((plot) => !this.only || this.only.includes(plot.name)).map((plot) => this.figure(plot));
-    replace(this.root, this.charts.map((one) => one.figure));
+    replace(
+      this.root,
+      this.charts.map((one) => one.figure),
+    );
     this.update();
   }
 
@@ -86,7 +95,11 @@ export class LivePlots {
       const value = course.at(Math.min(this.bench.done, course.length - 1)),
         [mark, text] = readouts.children[k].children;
       mark.className = `run-${k}`;
-      text.textContent = Number.isFinite(value) ? (plot.unit ? quantity(value, plot.unit) : quantity(value, "", 2)) : "–";
+      text.textContent = Number.isFinite(value)
+        ? plot.unit
+          ? quantity(value, plot.unit)
+          : quantity(value, "", 2)
+        : "–";
     });
     const isEmpty = courses.every((course) => course.every((v) => !(Math.abs(v) > tooSmall)));
     figure.classList.toggle("is-empty", isEmpty && !this.only);

@@ -3,7 +3,7 @@ import { el, replace } from "../../../report/html/page/src/dom.js";
 import { applyTheme, themeButton } from "../../../report/html/page/src/theme.js";
 import { App } from "./app.js";
 import { openKeys } from "./keys.js";
-import { carriedCases } from "./simulators.js";
+import { carriedCases, compile } from "./simulators.js";
 
 const page = document.getElementById("page");
 
@@ -19,13 +19,18 @@ const lacking = () =>
 function otherPage() {
   const link = JSON.parse(document.getElementById("rigor-link")?.textContent ?? "null");
   if (!link) return null;
-  return el("a.quiet", { id: "other-page", href: link.file, onclick: (event) => (event.target.href = link.file + location.hash) }, link.text);
+  return el(
+    "a.quiet",
+    { id: "other-page", href: link.file, onclick: (event) => (event.target.href = link.file + location.hash) },
+    link.text,
+  );
 }
 
 async function start() {
   applyTheme();
   const lacks = lacking();
   if (lacks.length > 0) throw new Error(`this browser is too old for it: it lacks ${lacks.join(" and ")}`);
+  compile(); // takes longest
   const body = el("main.view");
   const app = new App(body, await carriedCases());
   replace(
@@ -37,7 +42,11 @@ async function start() {
       el("span.tagline", {}, "A laboratory for the steps of rigid-body simulators"),
       el("span.spacer"),
       otherPage(),
-      el("button.quiet", { type: "button", id: "keys", title: "Keys (?)", "aria-label": "Keys and help", onclick: openKeys }, "?"),
+      el(
+        "button.quiet",
+        { type: "button", id: "keys", title: "Keys (?)", "aria-label": "Keys and help", onclick: openKeys },
+        "?",
+      ),
       themeButton(),
     ),
     body,

@@ -10,7 +10,14 @@ export class OwnFile {
     this.app = app;
     this.isOpen = false;
     this.root = el("div.own-file", { role: "alert" });
-    this.input = el("input.visually-hidden", { type: "file", id: "file", accept: ".toml", tabindex: -1, "aria-label": "A case file", onchange: (event) => this.take(event.target.files[0]) });
+    this.input = el("input.visually-hidden", {
+      type: "file",
+      id: "file",
+      accept: ".toml",
+      tabindex: -1,
+      "aria-label": "A case file",
+      onchange: (event) => this.take(event.target.files[0]),
+    });
     window.addEventListener("dragover", (event) => event.preventDefault());
     window.addEventListener("drop", (event) => {
       event.preventDefault();
@@ -19,14 +26,31 @@ export class OwnFile {
   }
 
   button() {
-    return el("div.file-choice", {}, el("button.quiet", { type: "button", id: "open-file", title: "or drop it anywhere on the page", onclick: () => this.input.click() }, "open a case file"), this.input);
+    return el(
+      "div.file-choice",
+      {},
+      el(
+        "button.quiet",
+        {
+          type: "button",
+          id: "open-file",
+          title: "or drop it anywhere on the page",
+          onclick: () => this.input.click(),
+        },
+        "open a case file",
+      ),
+      this.input,
+    );
   }
 
   async take(file) {
     if (!file) return;
     if (/\.(urdf|xml|mjcf|sdf)$/i.test(file.name))
-      return this.say(`${file.name}: the laboratory reads case files (TOML). \`rigor import ${file.name} > my-robot.toml\` makes one of a robot's file.`);
-    if (file.size > largest) return this.say(`${file.name}: found ${file.size} bytes; a case file of at most ${largest} is read.`);
+      return this.say(
+        `${file.name}: the laboratory reads case files (TOML). \`rigor import ${file.name} > my-robot.toml\` makes one of a robot's file.`,
+      );
+    if (file.size > largest)
+      return this.say(`${file.name}: found ${file.size} bytes; a case file of at most ${largest} is read.`);
     const text = await file.text();
     this.app.told = [];
     Object.assign(this.app.state, { knobs: {}, at: 0, lesson: "" });
@@ -60,7 +84,9 @@ export class OwnFile {
     replace(
       this.root,
       el("p.error", { id: "file-error" }, why),
-      shown.length > 0 ? el("pre", { tabindex: 0, "aria-label": `Lines ${from} to ${to} of ${file.path}` }, shown) : null,
+      shown.length > 0
+        ? el("pre", { tabindex: 0, "aria-label": `Lines ${from} to ${to} of ${file.path}` }, shown)
+        : null,
       el("p.fine", {}, "The scene that was shown before stays."),
       el("button.quiet", { type: "button", onclick: () => replace(this.root) }, "close"),
     );

@@ -136,7 +136,10 @@ export class Picture {
     const named = this.isSide ? placed : [];
     if (this.labels.children.length !== named.length || this.labelled !== this.names.join()) {
       this.labelled = this.names.join();
-      replace(this.labels, named.map((_, k) => el(`span.run-${k}`, {}, this.names[k])));
+      replace(
+        this.labels,
+        named.map((_, k) => el(`span.run-${k}`, {}, this.names[k])),
+      );
     }
     named.forEach(({ x, y }, k) => {
       this.labels.children[k].style.left = `${x + 8}px`;

@@ -19,14 +19,25 @@ export function nameOf({ method, options }) {
   return [isOutside(method) ? method : `core:${method}`, ...texts].join(",");
 }
 
-export const shortName = (name) => name.replace(/^core:/, "").replaceAll("orientation=", "").replaceAll("contact=", "");
+export const shortName = (name) =>
+  name
+    .replace(/^core:/, "")
+    .replaceAll("orientation=", "")
+    .replaceAll("contact=", "");
 
 // The run with what the core has; what it does not know is replaced by the nearest, and told.
 export function fittingRun(name, methods, told) {
   const { method, options } = partsOf(name);
   let row = methods.find((one) => one.name === method);
   if (!row) {
-    row = methods.find((one) => one.name === nearestWord(method, methods.map((one) => one.name)));
+    row = methods.find(
+      (one) =>
+        one.name ===
+        nearestWord(
+          method,
+          methods.map((one) => one.name),
+        ),
+    );
     told.push(`There is no method “${method.slice(0, 60)}”; this is the nearest, “${row.name}”.`);
   }
   const fitting = {};

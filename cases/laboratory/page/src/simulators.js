@@ -17,14 +17,17 @@ export const carriedCases = async () => JSON.parse(asText(await unpacked("rigor-
 export const outside = JSON.parse(document.getElementById("rigor-engines")?.textContent ?? "[]");
 
 let compiled = null;
-const compile = () => (compiled ??= unpacked("rigor-wasm").then((wasm) => WebAssembly.compile(wasm)));
+export const compile = () => (compiled ??= unpacked("rigor-wasm").then((wasm) => WebAssembly.compile(wasm)));
 
 // A page in a file has no address that a worker may be loaded from; a blob has one everywhere.
 const addresses = new Map();
 function addressOf(kind) {
   if (!addresses.has(kind)) {
     const script = unpacked(kind === "core" ? "rigor-worker" : `rigor-worker-${kind}`);
-    addresses.set(kind, script.then((text) => URL.createObjectURL(new Blob([text], { type: "text/javascript" }))));
+    addresses.set(
+      kind,
+      script.then((text) => URL.createObjectURL(new Blob([text], { type: "text/javascript" }))),
+    );
   }
   return addresses.get(kind);
 }
@@ -63,7 +66,8 @@ export class Simulator {
 
   fail(why) {
     this.hasTrapped = true;
-    for (const done of this.waiting.values()) done({ ok: false, has_trapped: true, why: `the simulator stopped: ${why}` });
+    for (const done of this.waiting.values())
+      done({ ok: false, has_trapped: true, why: `the simulator stopped: ${why}` });
     this.waiting.clear();
   }
 

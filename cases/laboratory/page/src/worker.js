@@ -13,6 +13,9 @@ self.onmessage = async ({ data: { id, module, request, numbers } }) => {
     delete answer.numbers;
     self.postMessage({ id, answer, numbers: given }, [given.buffer]);
   } catch (error) {
-    self.postMessage({ id, answer: { ok: false, has_trapped: true, why: `the simulator stopped: ${error.message ?? error}` } });
+    self.postMessage({
+      id,
+      answer: { ok: false, has_trapped: true, why: `the simulator stopped: ${error.message ?? error}` },
+    });
   }
 };
