@@ -26,7 +26,7 @@ export class Findings {
             el(
               "tr",
               {},
-              ["method", "energy since the start", "error", "turned wrong", "verdict"].map((text) =>
+              ["method", "energy, of what is in play", "error", "turned wrong", "verdict"].map((text) =>
                 el("th", { scope: "col" }, text),
               ),
             ),
