@@ -75,9 +75,9 @@ LiveReading Experiment::read_now() const {
   return reading;
 }
 
-// Past the instant from which the truth's own error is a hundredth of a scene's length, no error can be told.
+// Where the truth's own error is larger than a centimetre, no error is shown.
 void Experiment::note_error(std::size_t step, BodyColumns bodies, LiveReading& reading) const {
-  constexpr double kMostTruthError = 1e-2;
+  constexpr double kMostTruthError = 1e-2;  // m
   if (step >= truth_.rows() || truth_.error(step) > kMostTruthError) return;
   BodyTable due(truth_.bodies);
   truth_.read(step, due.columns());
