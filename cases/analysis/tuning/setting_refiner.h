@@ -17,7 +17,7 @@ struct RefinedNumber {
   double low = 0, high = 0;  // in the option's unit
   bool is_logarithmic = false;
   bool whole = false;
-  std::string at(double share) const;     // share 0 is `low`, and 1 is `high`
+  std::string at(double share) const;  // share 0 is `low`, and 1 is `high`
   double share_of(double number) const;
 };
 
@@ -29,8 +29,9 @@ struct Refined {
   ProbeAnswer answer;
 };
 
-// The best run found at the step of `start`, over the whole duration. The numbers that it names are searched. While that
-// does not keep the bounds, one more of `options` is named, the one that improves the run most. `jobs`: cells at once.
+// The best run found at the step of `start`, over the whole duration. The numbers that it names are searched. While
+// that does not keep the bounds, one more of `options` is named, the one that improves the run most. `jobs`: cells at
+// once.
 Refined refine(const Refined& start, const std::vector<OptionInfo>& options, Prober& prober, const EngineTable& engines,
                int jobs);
 

@@ -150,8 +150,8 @@ class Tuner {
     for (const std::size_t step : kSteps) {
       for (const auto& [setting, start] : nearest_runs(settings, step)) {
         const Refined best = refine(start, setting->space->options, prober_, engines_, options_.jobs);
-        const bool is_new = std::none_of(kept.begin(), kept.end(),
-                                         [&](const Setting& other) { return other.run == best.probe.run; });
+        const bool is_new =
+            std::none_of(kept.begin(), kept.end(), [&](const Setting& other) { return other.run == best.probe.run; });
         // A run that keeps the bounds is confirmed, with steps around this one.
         if (best.answer.error > 1)
           keep_point(best.probe, best.answer);
@@ -174,9 +174,8 @@ class Tuner {
     for (std::size_t i = 0; i < probes.size(); ++i) {
       if (std::isfinite(answers[i].error)) runs.emplace_back(&settings[i], Refined{probes[i], answers[i]});
     }
-    std::stable_sort(runs.begin(), runs.end(), [](const NearRun& a, const NearRun& b) {
-      return a.second.answer.error < b.second.answer.error;
-    });
+    std::stable_sort(runs.begin(), runs.end(),
+                     [](const NearRun& a, const NearRun& b) { return a.second.answer.error < b.second.answer.error; });
     runs.resize(std::min(runs.size(), kStarts));
     return runs;
   }

@@ -1,8 +1,8 @@
 // Finds the cheapest setting of an engine that keeps bounds on several cases. The space is the engine's methods, the
 // option values in their tables, and steps. Options without effect are left out. Short runs compare the settings first,
 // and the better half goes on to longer runs (successive halving: Jamieson, Talwalkar, AISTATS 2016). The rest run in
-// full. The cheapest of them are measured several times. If none of them keeps the bounds, numbers between the tried values
-// are searched.
+// full. The cheapest of them are measured several times. If none of them keeps the bounds, numbers between the tried
+// values are searched.
 #pragma once
 
 #include <functional>

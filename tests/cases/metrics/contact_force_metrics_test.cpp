@@ -232,8 +232,8 @@ BOOST_AUTO_TEST_CASE(bodies_that_a_joint_holds_together_are_balanced_as_one) {
              "joints or springs hold every body to the world");
 }
 
-// Three balls in a row: the first strikes, the second passes the whole momentum on within the step and stands at both of
-// its ends, a millimetre from both others. So each pair carries m v/dt.
+// Three balls in a row: the first strikes, the second passes the whole momentum on within the step and stands at both
+// of its ends, a millimetre from both others. So each pair carries m v/dt.
 BOOST_AUTO_TEST_CASE(a_body_that_passes_its_momentum_on_within_a_step_is_met) {
   constexpr double dt = 0.1, v = 1, gap = 1e-3;
   Scene scene;
