@@ -120,8 +120,8 @@ std::string defaults_of(const RunName& run, const EngineTable& engines) {
 
 constexpr const char* kToldOfWinner[] = {"position_error", "orientation_error", "penetration"};
 
-// What the bounds do not ask for: a setting may keep them by a motion that nobody wants, as a contact so soft that a
-// ball sinks in. One line per case.
+// A setting may keep the bounds by a motion that nobody wants, as a contact so soft that a ball sinks in. This says
+// what the bounds do not ask for, a line for each case.
 std::string beyond_bounds(const TunedPoint& best, std::vector<Case> cases, const EngineTable& engines,
                           const TuneRequest& asked) {
   for (Case& definition : cases) definition.dt = {best.dt}, definition.gates.clear();

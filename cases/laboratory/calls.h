@@ -1,23 +1,20 @@
 // The laboratory's calls: JSON in, JSON and columns of numbers out. They know no browser: a page calls them in
 // WebAssembly, a test natively.
 //
-//   {"call":"engine","command":C,"info":{…}}            adds an engine from outside, a process C; without "info" it is
-//   asked
-//   {"call":"methods"}                                  the core's methods and the engines from outside, with their
-//   options
-//   {"call":"read","path":P,"text":T}                   what a case file holds: scene, duration, knobs, what each
-//   method lacks
-//   {"call":"load", …,"knobs":{…},"run":R,"dt":D}       makes the run of this instance anew; its settings
-//   {"call":"step","count":N}                           numbers: a reading for each step, then the poses after the last
-//   {"call":"readings","from":K}                        numbers: all readings from step K on
-//   {"call":"truth", …,"knobs":{…},"dt":D}              numbers: the truth's table; with "provisional":true the
-//   stand-in
-//   {"call":"compare", header of "truth"}               takes that table from the room for numbers
-//   {"call":"judge"}                                    verdict and metrics of the run so far
-//   {"call":"explain", …,"knobs":{…},"dt":D,"runs":[…]} sentences on the runs, of which each has its answer of "judge"
-//   {"call":"hashes", …,"run":R,"dt":D,"steps":N}       the hash of each state, as `rigor repeat --record` writes it
+//   {"call":"engine","command":C,"info":{…}}   adds an engine from outside, a process C; without "info" it is asked
+//   {"call":"methods"}                         the core's methods and the engines from outside, with options
+//   {"call":"read","path":P,"text":T}          what a case file holds: scene, duration, knobs, what methods lack
+//   {"call":"load", …,"run":R,"dt":D}          makes the run of this instance anew; its settings
+//   {"call":"step","count":N}                  numbers: a reading for each step, then the poses after the last
+//   {"call":"readings","from":K}               numbers: all readings from step K on
+//   {"call":"truth", …,"dt":D}                 numbers: the truth's table; with "provisional":true the stand-in
+//   {"call":"compare", header of "truth"}      takes that table from the room for numbers
+//   {"call":"judge"}                           verdict and metrics of the run so far
+//   {"call":"explain", …,"dt":D,"runs":[…]}    sentences on the runs, of which each has its answer of "judge"
+//   {"call":"hashes", …,"run":R,"dt":D,"steps":N}   the hash of each state, as `rigor repeat --record` writes it
 //
-// … stands for "path" and "text". D is written as in case files: "1/30". Every answer has "ok"; a false one has "why".
+// … stands for "path", "text" and the optional "knobs":{…}. D is written as in case files: "1/30". Every answer has
+// "ok"; a false one has "why".
 #pragma once
 
 #include <memory>

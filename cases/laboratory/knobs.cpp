@@ -28,10 +28,11 @@ ContactLaw first_law(const Scene& scene) {
   return scene.contact_default;
 }
 
+// A soft law has no restitution.
 void for_each_law(Scene& scene, const std::function<void(ContactLaw&)>& change) {
   change(scene.contact_default);
   for (ContactPair& pair : scene.contact_pairs)
-    if (pair.law.collides) change(pair.law);
+    if (pair.law.collides && !pair.law.is_soft()) change(pair.law);
 }
 
 // A row of the table: what of a scene it shows, and how it changes it.
@@ -44,7 +45,6 @@ Knob logarithmic(const char* name, const std::string& label, const char* unit, d
   return {name, label, unit, value, value / kRange, value * kRange, true};
 }
 
-// Of several springs it is the first: the ratios stay.
 std::string of_springs(const char* what, const Scene& scene) {
   return fmt::format("{} of the {}", what, scene.springs.size() > 1 ? "springs" : "spring");
 }
@@ -86,7 +86,7 @@ void set_stiffness(Scene& scene, double value) {
   for (Spring& spring : scene.springs) spring.stiffness *= factor;
 }
 
-// Up to twice the critical damping of the lightest body on the first spring.
+// Up to twice the critical damping of the first body on the first spring.
 std::optional<Knob> damping_of(const Scene& scene) {
   const Spring* spring = first_spring(scene);
   const Body* body = first_moving(scene);

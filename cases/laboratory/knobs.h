@@ -9,8 +9,8 @@
 
 namespace rigor {
 
-// A knob acts on all springs, bodies or pairs at once. Where these differ, `value` is that of the first, and the others
-// keep their ratio to it.
+// A knob acts on all springs, bodies or pairs at once; if these differ, `value` is that of the first. With stiffness
+// and mass the others keep their ratio to it. With damping, restitution and friction all get the same value.
 struct Knob {
   std::string name;   // "stiffness": the key in an address
   std::string label;  // "Stiffness of the springs"

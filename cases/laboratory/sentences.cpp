@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "cases/analysis/small_motions/oscillator_growth.h"
@@ -12,18 +11,6 @@
 #include "core/engine/run_name.h"
 
 namespace rigor {
-namespace {
-
-// The element that stands for the mode, as in the report.
-ForceElement::Kind kind_of_stiffest(const SmallMotions& motions) {
-  const auto& elements = motions.elements();
-  return std::max_element(
-             elements.begin(), elements.end(),
-             [](const auto& a, const auto& b) { return a.stiffness / a.inertia < b.stiffness / b.inertia; })
-      ->kind;
-}
-
-}  // namespace
 
 std::vector<Message> live_explanations(const EngineTable& engines, const Case& changed, const StepSize& dt,
                                        const std::vector<LiveRun>& runs) {
@@ -48,7 +35,7 @@ std::optional<LiveMode> stiffest_mode(const Case& changed, const StepSize& dt, c
   if (!motions || !(motions->stiffest().frequency > 0)) return {};
   LiveMode mode{motions->stiffest().frequency, largest_semi_implicit_step(motions->stiffest()), {}};
   for (const std::string& run : runs) {
-    const auto growth = energy_growth(run, kind_of_stiffest(*motions), motions->stiffest(), dt.seconds);
+    const auto growth = energy_growth(run, motions->stiffest_element().kind, motions->stiffest(), dt.seconds);
     if (growth) mode.growth[run] = *growth;
   }
   return mode;
@@ -58,9 +45,10 @@ std::string sentence_on(const LiveMode& mode, const StepSize& dt) {
   std::string text =
       fmt::format("The stiffest spring mode has ω = {}, so ω dt = {} at dt = {} s.",
                   quantity_text(mode.frequency, "rad/s"), two_digits(mode.frequency * dt.seconds), dt.text);
-  GroupedNames said;
-  for (const auto& [run, growth] : mode.growth) said.add(run, " by " + three_digits(growth));
-  if (!said.empty()) text += fmt::format(" One step multiplies its energy: {}.", said.text());
+  std::string factors;
+  for (const auto& [run, growth] : mode.growth)
+    factors += fmt::format("{} {} ({})", factors.empty() ? "" : ",", three_digits(growth), run);
+  if (!factors.empty()) text += fmt::format(" One step multiplies its energy by{}.", factors);
   return text;
 }
 

@@ -30,8 +30,8 @@ struct LiveMode {
 };
 std::optional<LiveMode> stiffest_mode(const Case& changed, const StepSize& dt, const std::vector<std::string>& runs);
 
-// "The stiffest spring mode has ω = 20 rad/s, so ω dt = 0.66 at dt = 1/30 s. In one step its energy is multiplied by
-// …".
+// "The stiffest spring mode has ω = 20 rad/s, so ω dt = 0.66 at dt = 1/30 s. One step multiplies its energy by 1.43
+// (core:explicit-euler), 0.991 (core:rk4)."
 std::string sentence_on(const LiveMode& mode, const StepSize& dt);
 
 }  // namespace rigor

@@ -181,6 +181,12 @@ void SmallMotions::find_stiffest(const DenseMatrix& response) {
   stiffest_ = {std::sqrt(squared), rates.dot(damping.cwiseProduct(rates)) / squared};
 }
 
+const ForceElement& SmallMotions::stiffest_element() const {
+  return *std::max_element(elements_.begin(), elements_.end(), [](const ForceElement& a, const ForceElement& b) {
+    return a.stiffness / a.inertia < b.stiffness / b.inertia;
+  });
+}
+
 const ForceElement* SmallMotions::most_damped() const {
   const ForceElement* most = nullptr;
   for (const ForceElement& element : elements_) {

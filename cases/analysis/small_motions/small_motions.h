@@ -36,6 +36,8 @@ class SmallMotions {
   const std::vector<ForceElement>& elements() const { return elements_; }
   // The mode with the highest frequency, its damping by Rayleigh's quotient.
   const Oscillator& stiffest() const { return stiffest_; }
+  // The element that stands for that mode: the one with the most stiffness over inertia.
+  const ForceElement& stiffest_element() const;
   // The element with the highest damping rate, servos apart; null if nothing damps.
   const ForceElement* most_damped() const;
   // The servo that limits a semi-implicit step most; null without servos.

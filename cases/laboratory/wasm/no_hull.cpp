@@ -10,7 +10,7 @@ std::shared_ptr<const Hull> hull_of(const std::vector<Vec3>&) {
   throw InputError("this build has no convex hulls: Qhull's source was not fetched when it was built");
 }
 
-// No hull was made that they could be asked of.
+// Nothing calls these, because no hull can be made.
 std::size_t Hull::furthest(const Vec3&) const { throw std::logic_error("no hulls"); }
 TriangleMesh Hull::drawn() const { throw std::logic_error("no hulls"); }
 std::shared_ptr<const Hull> scaled_hull(const Hull&, double) { throw std::logic_error("no hulls"); }

@@ -1,4 +1,4 @@
-// Of up to four runs, for light and dark pages: four colours of Okabe and Ito's palette, which colour-blind people tell
+// The colours of up to four runs, for light and dark pages: four colours of Okabe and Ito's palette, which colour-blind people tell
 // apart (Okabe, Ito, "Color Universal Design", 2008). Each run's line is dashed in its own way, too.
 export const colours = [
   ["#0072b2", "#56b4e9"],

@@ -1,4 +1,4 @@
-// What happens, and why: a row of figures for each run, and the sentences of the report on them.
+// Tells what happens and why, by a row of figures for each run and the sentences of the report on them.
 import { el, replace } from "../../../report/html/page/src/dom.js";
 import { digits, isNumber, percent, quantity } from "../../../report/html/page/src/format.js";
 import { shortName } from "./run_names.js";

@@ -99,10 +99,15 @@ class MeetingPairs {
   bool ask(int a, int b, double gap) {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
     Surface &of_a = surfaces_[i], &of_b = surfaces_[j];
+    const double kicks = of_a.kick + of_b.kick;
+    // Bodies that touch and rest need no more questions.
+    if (gap <= touching_ && of_a.way + of_b.way + dt_ * kicks <= touching_) {
+      pairs_.insert(pair_of(scene_, a, b));
+      return false;
+    }
     collide(*scene_.bodies[i].shape, middle_of(before_, before_, a, 0), *scene_.bodies[j].shape,
             middle_of(before_, before_, b, 0), points_);
     const Approach approach = approach_of(points_, before_, a, b, dt_);
-    const double kicks = of_a.kick + of_b.kick;
     const bool meets =
         gap <= touching_ || approach.gap_after - dt_ * kicks <= touching_ + of_a.deviation + of_b.deviation;
     if (!meets) return false;

@@ -100,11 +100,7 @@ class BlowUps {
 
   std::optional<BlowUpSuspect> spring_suspect() const {
     if (!motions_ || !(motions_->stiffest().frequency > 0)) return {};
-    const auto& elements = motions_->elements();
-    const auto stiffest = std::max_element(elements.begin(), elements.end(), [](const auto& a, const auto& b) {
-      return a.stiffness / a.inertia < b.stiffness / b.inertia;
-    });
-    return BlowUpSuspect{kMode, stiffest->kind, motions_->stiffest()};
+    return BlowUpSuspect{kMode, motions_->stiffest_element().kind, motions_->stiffest()};
   }
 
   // The run of the core that is, or repeats, the cell's run.
