@@ -76,11 +76,11 @@ ContactRowLayout::ContactRowLayout(const Scene& scene, const System& system, std
   for (std::size_t i = 0; i < system.size(); ++i) is_round_.push_back(is_round(scene.bodies[i], system.bodies[i]));
 }
 
-void ContactRowLayout::assign(const std::vector<ContactConstraint>& constraints) {
+void ContactRowLayout::assign(const std::vector<ContactConstraint>& constraints, bool are_impulses_known) {
   colour_pairs(constraints);
   form_groups();
-  deep_rows_.clear();
-  if (has_deep_) find_deep_rows(constraints);
+  rows_of_many_passes_.clear();
+  if (has_deep_ || !are_impulses_known) find_rows_of_many_passes(constraints, are_impulses_known);
 }
 
 void ContactRowLayout::colour_pairs(const std::vector<ContactConstraint>& constraints) {
@@ -192,16 +192,17 @@ void ContactRowLayout::fill_group(std::size_t number, const std::vector<ContactC
   }
 }
 
-void ContactRowLayout::find_deep_rows(const std::vector<ContactConstraint>& constraints) {
+void ContactRowLayout::find_rows_of_many_passes(const std::vector<ContactConstraint>& constraints,
+                                                bool are_impulses_known) {
   for (std::size_t thread = 0; thread < threads_; ++thread) {
     for_each_row(thread, [&](std::size_t group, std::size_t k, std::size_t i, std::size_t point) {
-      if (!constraints[i].is_deep) return;
-      deep_rows_.push_back(
+      if (are_impulses_known && !constraints[i].is_deep) return;
+      rows_of_many_passes_.push_back(
           {static_cast<std::int32_t>(group), static_cast<std::int16_t>(point), static_cast<std::int16_t>(k)});
     });
   }
   // Their order says nothing of which thread found them.
-  std::sort(deep_rows_.begin(), deep_rows_.end(), [](const RowPlace& x, const RowPlace& y) {
+  std::sort(rows_of_many_passes_.begin(), rows_of_many_passes_.end(), [](const RowPlace& x, const RowPlace& y) {
     return std::tuple(x.group, x.lane, x.point) < std::tuple(y.group, y.lane, y.point);
   });
 }

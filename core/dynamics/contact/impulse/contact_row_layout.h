@@ -33,8 +33,9 @@ class ContactRowLayout {
   std::size_t idle_body() const { return static_cast<std::size_t>(idle_); }
   std::size_t records() const { return idle_body() + 1 + threads_; }
 
-  // Lays these constraints out, which are sorted by pair.
-  void assign(const std::vector<ContactConstraint>& constraints);
+  // Lays these constraints out, which are sorted by pair. Rows that one pass does not bring to rest are those of deep
+  // overlaps, or all of them if the impulses are not known from a step before.
+  void assign(const std::vector<ContactConstraint>& constraints, bool are_impulses_known);
   // Writes the rows of a thread's groups, impulses times `impulse_scale`, with their effective masses.
   void fill(const std::vector<ContactConstraint>& constraints, double impulse_scale, const SolverBodies& bodies,
             std::size_t thread);
@@ -52,8 +53,8 @@ class ContactRowLayout {
   Share share(std::size_t colour, std::size_t thread) const;
   const std::vector<RowGroup>& groups() const { return groups_; }
   bool has_restitution() const { return has_restitution_; }
-  // Deeply overlapping constraints, in the order of groups.
-  const std::vector<RowPlace>& deep_rows() const { return deep_rows_; }
+  // In the order of groups.
+  const std::vector<RowPlace>& rows_of_many_passes() const { return rows_of_many_passes_; }
 
  private:
   static constexpr std::size_t kKinds = 5;  // groups of a colour: of balls, and of any bodies with 1, 2, 3, 4 points
@@ -69,7 +70,7 @@ class ContactRowLayout {
   void colour_pairs(const std::vector<ContactConstraint>& constraints);
   std::size_t colour_of(int a, int b);
   void form_groups();
-  void find_deep_rows(const std::vector<ContactConstraint>& constraints);
+  void find_rows_of_many_passes(const std::vector<ContactConstraint>& constraints, bool are_impulses_known);
   void fetch_group(std::size_t number, const std::vector<ContactConstraint>& constraints) const;
   void fill_group(std::size_t number, const std::vector<ContactConstraint>& constraints, double impulse_scale,
                   std::size_t thread);
@@ -87,7 +88,7 @@ class ContactRowLayout {
   std::vector<RowGroup> groups_;
   std::vector<std::array<std::int32_t, kRowsPerBlock>> pairs_of_group_;  // -1: none
   AlignedDoubles rows_;
-  std::vector<RowPlace> deep_rows_;
+  std::vector<RowPlace> rows_of_many_passes_;
   bool has_restitution_ = false, has_deep_ = false;
 };
 

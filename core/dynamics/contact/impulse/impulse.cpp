@@ -56,7 +56,7 @@ class ImpulseStepper : public ContactStepper {
         rows_(scene, parts.system, threads_->members()),
         search_(threads_->members()),
         impacts_(rows_, *threads_),
-        deep_(rows_, *threads_),
+        many_passes_(rows_, *threads_),
         turning_(scene),
         rebounds_(parts.system, SubSteps::takes_impacts_at_once(parts.settings)),
         positions_(kVelocity, parts.system.size()),
@@ -116,12 +116,14 @@ class ImpulseStepper : public ContactStepper {
   // For sub-steps of h with these contacts: effective masses, and the last impulses, scaled to h.
   void prepare(BodyColumns state, const std::vector<ContactConstraint>& constraints, double h) {
     const double impulse_scale = parameters_.h > 0 ? h / parameters_.h : 1;
+    are_impulses_known_ = parameters_.h > 0 || constraints.size() > SubSteps::kMostAtRest;
     parameters_ = sub_steps_.parameters(h);
-    rows_.assign(constraints);
+    rows_.assign(constraints, are_impulses_known_);
     search_.begin(rows_);
-    deep_.clear();
-    deep_.add(rows_.deep_rows().data(), rows_.deep_rows().data() + rows_.deep_rows().size());
-    deep_.form_groups();
+    many_passes_.clear();
+    const std::vector<RowPlace>& many = rows_.rows_of_many_passes();
+    many_passes_.add(many.data(), many.data() + many.size());
+    many_passes_.form_groups();
     threads_->run([&](std::size_t thread) {
       const Bodies bodies = share_of_bodies(thread);
       for (int c = 0; c < kVelocity; ++c)
@@ -190,12 +192,17 @@ class ImpulseStepper : public ContactStepper {
   }
 
   // A body that lands flat must not begin to rotate because of the order of its corners. Impacts are therefore solved
-  // until they agree.
+  // until they agree. So are all contacts until they are found for the second time, because no impulses of an earlier
+  // step make a good start.
   void solve_with_bias(std::size_t thread) {
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
     });
-    impacts_.solve(contact_kernels().sweep_with_bias, solver_bodies(), parameters_, thread);
+    if (are_impulses_known_)
+      impacts_.solve(contact_kernels().sweep_with_bias, solver_bodies(), parameters_, thread);
+    else
+      many_passes_.solve(contact_kernels().sweep_with_bias, solver_bodies(), sub_steps_.until_at_rest(parameters_),
+                         thread);
     by_one_thread(thread, [&] { turning_.solve(solver_bodies()); });
   }
 
@@ -220,7 +227,8 @@ class ImpulseStepper : public ContactStepper {
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().relax(groups, count, solver_bodies());
     });
-    deep_.solve(contact_kernels().sweep_without_bias, solver_bodies(), parameters_, thread);
+    many_passes_.solve(contact_kernels().sweep_without_bias, solver_bodies(),
+                       are_impulses_known_ ? parameters_ : sub_steps_.until_at_rest(parameters_), thread);
     // Some integrators leave the normal impulse of a body at rest to this pass.
     by_one_thread(thread, [&] { turning_.solve(solver_bodies()); });
   }
@@ -240,7 +248,8 @@ class ImpulseStepper : public ContactStepper {
   Manifolds manifolds_;
   ContactRowLayout rows_;
   ImpactSearch search_;
-  RowSweeps impacts_, deep_;  // points that meet in this sub-step, and those that overlap deeply from the start
+  RowSweeps impacts_, many_passes_;  // points that meet in this sub-step; see rows_of_many_passes()
+  bool are_impulses_known_ = false;  // from before contacts were last updated
   TurningFriction turning_;
   Rebounds rebounds_;
   StepImpulses reports_;

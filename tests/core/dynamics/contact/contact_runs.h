@@ -33,6 +33,7 @@ class ContactRun {
     for (int i = 0; i < steps; ++i) step(dt);
   }
 
+  ReportsContacts& contact_reports() { return *stepper_->contact_reports(); }
   BodyColumns state() const { return state_.columns(); }
   MutableBodyColumns state() { return state_.columns(); }
   double time() const { return time_; }
