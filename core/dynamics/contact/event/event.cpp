@@ -27,6 +27,7 @@
 #include "core/dynamics/contact/event/event_forces.h"
 #include "core/dynamics/contact/event/event_options.h"
 #include "core/dynamics/contact/event/persistent/persistent_contact.h"
+#include "core/dynamics/contact/event/rest.h"
 #include "core/engine/option_values.h"
 #include "core/engine/state_archive.h"
 
@@ -83,11 +84,13 @@ class EventStepper : public ContactStepper {
     is_smooth_ = true;
     if (!(dt > 0)) return step_without_contact(state, t, dt);
     forces_.begin_step();
+    saved_ = std::min(saved_ + kForEachPart + patience_ * kForEachStep / moving_, patience_ * kMostSaved / moving_);
+    if (rest_.goes_on(state, t, dt)) return stay(state, dt);
+    rest_.begin_step(state);
     pairs_ = contact_points_.candidates(state);
     persistent_contact_.close_gaps(state, pairs_, PersistentContact::Closing::overlaps);
     note_jam();
     instants_ = 0;
-    saved_ = std::min(saved_ + kForEachPart + patience_ * kForEachStep / moving_, patience_ * kMostSaved / moving_);
     crowded_step_ = crowded_.longest(dt);
     instant_ = kInstant * contact_points_.scales().time;
     for (double done = 0; done < dt;) {
@@ -102,6 +105,8 @@ class EventStepper : public ContactStepper {
     }
     note(persistent_contact_.take_projection_warning());
     forces_.end_step(dt);
+    if (is_at_rest_ && is_smooth_ && solver_warning_.empty())
+      rest_.end_step(state, t, persistent_contact_.next_switch(t, loads_.next_switch(t, kInfinity)));
   }
 
   ReportsContacts* contact_reports() override { return &forces_; }
@@ -157,6 +162,11 @@ class EventStepper : public ContactStepper {
                      names_[jam->cone.b], -jam->gap));
   }
 
+  void stay(BodyColumns state, double dt) {
+    if (forces_.is_asked()) persistent_contact_.visit_forces_at_rest(state, dt, see_force_);
+    forces_.end_step(dt);
+  }
+
   void step_without_contact(MutableBodyColumns state, double t, double dt) {
     persistent_contact_.select(state, {}, t, dt);
     start_ = BodyColumns(state);
@@ -165,6 +175,7 @@ class EventStepper : public ContactStepper {
 
   // Impacts now, and what stays in contact until the next event.
   double take_part(MutableBodyColumns state) {
+    is_at_rest_ = false;
     pairs_ = contact_points_.candidates(state);
     touching_.clear();
     contact_points_.find(state, pairs_, ContactPoint::kClosed, touching_);
@@ -192,7 +203,8 @@ class EventStepper : public ContactStepper {
     start_ = BodyColumns(state);
     end_ = BodyColumns(state);
     pairs_.clear();
-    if (persistent_contact_.is_at_rest(state)) {
+    is_at_rest_ = persistent_contact_.is_at_rest(state);
+    if (is_at_rest_) {
       if (forces_.is_asked()) persistent_contact_.visit_forces_at_rest(state, part_.length(), see_force_);
       return part_.to;
     }
@@ -294,7 +306,7 @@ class EventStepper : public ContactStepper {
   }
 
   double take_crowded_step(MutableBodyColumns state, double longest) {
-    is_smooth_ = false;
+    is_smooth_ = is_at_rest_ = false;
     if (patience_ > 1 && longest > instant_) note("events crowd more than its patience allows");
     if (!crowded_from_ && longest > instant_) crowded_from_ = part_.t + part_.from;
     const double h = crowded_.take(state, part_.t + part_.from, part_.length(), longest);
@@ -379,6 +391,8 @@ class EventStepper : public ContactStepper {
   bool has_impact_ = false, follows_slip_ = false;  // the part at hand; and it ends where a slip limits its length
   int instants_ = 0;                                // skipped in this step
   bool is_smooth_ = true;
+  bool is_at_rest_ = false;  // in the last part
+  Rest rest_;
   BodyTable start_, end_, clear_;
   double reach_ = 0;           // s, from start_ to end_
   std::vector<double> ahead_;  // s, ends of the intervals still to be looked at, the next one last

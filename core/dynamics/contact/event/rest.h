@@ -1,0 +1,24 @@
+// Recognises a scene that rests, for the method `event`: a step left its state as it was, because nothing moves and all
+// forces balance. While no load changes, each later step does the same.
+#pragma once
+
+#include "core/engine/body_table.h"
+
+namespace rigor {
+
+class Rest {
+ public:
+  // Of a step from t to t + dt [s].
+  bool goes_on(BodyColumns state, double t, double dt) const;
+  void begin_step(BodyColumns state) { state_ = state, until_ = -1; }
+  // Where a step from t ended at rest, with loads that stay until `until` [s].
+  void end_step(BodyColumns state, double t, double until);
+
+ private:
+  bool is_same(BodyColumns state) const;
+
+  BodyTable state_;
+  double from_ = 0, until_ = -1;  // s; until_ < from_: no rest
+};
+
+}  // namespace rigor
