@@ -258,6 +258,33 @@ BOOST_AUTO_TEST_CASE(a_body_that_passes_its_momentum_on_within_a_step_is_met) {
   BOOST_TEST(points(0.5 * gap / v).empty());
 }
 
+// A ball without gravity meets the ground exactly at the third of five samples, where the truth still has the velocity
+// of before. Its impulse of 2 m v may be reported in the step before that sample or in the one after it.
+BOOST_AUTO_TEST_CASE(an_impact_at_a_sample_may_be_reported_on_either_side_of_it) {
+  constexpr double v = 1, force = 2 * 2 * v / kDt;
+  const auto error = [&](int struck, double share) {
+    Scene scene = ball_on_ground(0);
+    scene.gravity = Vec3::Zero();
+    scene.contact_default = {1, 0};
+    Trajectory run = standing(scene, 4, [&](int n) {
+      return n == struck ? std::vector{under_ball({0, 0, share * force})} : std::vector<ReportedContact>();
+    });
+    for (int n = 0; n <= 4; ++n) {
+      BodyTable table(scene.bodies.size());
+      set_initial_state(scene, table.columns());
+      table.columns().set_position(kBall, {0, 0, 0.5 + v * kDt * std::abs(n - 2)});
+      table.columns().set_velocity(kBall, {0, 0, n <= 2 ? -v : v});
+      run.samples[static_cast<std::size_t>(n)].bodies = KeptBodies(std::as_const(table).columns());
+    }
+    return value_of("contact_force_error", scene, run);
+  };
+  for (const int beside : {2, 3}) BOOST_TEST(error(beside, 1) < 1e-9 * force);
+  // The mean over both steps is compared, so half of what is missing is seen.
+  BOOST_TEST(std::abs(error(2, 0.9) - 0.05 * force) < 1e-9 * force);
+  BOOST_TEST(std::abs(error(4, 1) - force) < 1e-9 * force);
+  BOOST_TEST(std::abs(error(1, 1) - force) < 1e-9 * force);
+}
+
 BOOST_AUTO_TEST_CASE(a_run_without_reports_says_so) {
   const Scene scene = ball_on_ground(0.5);
   Trajectory run = standing(scene, 3, [](int) { return std::vector<ReportedContact>(); });

@@ -7,22 +7,15 @@
 #include <set>
 
 #include "cases/metrics/measures/contact/pair_wrenches.h"
+#include "cases/metrics/measures/contact/touching.h"
 #include "cases/metrics/measures/shape_gap.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
 namespace rigor {
 namespace {
 
-// Of the smallest body's half width. A gap below the first is closed: it is beyond the rounding of a truth's
-// positions, and below any gap that a scene means. A point within the second of the pair's nearest may carry.
-constexpr double kTouching = 1e-7, kMayCarry = 1e-3;
-
-double smallest_half_width(const Scene& scene) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Body& body : scene.bodies)
-    if (body.shape && !body.fixed) least = std::min(least, inradius(*body.shape));
-  return least;
-}
+// Of the smallest body's half width: a point may carry that is within it of the pair's nearest.
+constexpr double kMayCarry = 1e-3;
 
 Pose middle_of(BodyColumns before, BodyColumns after, int body, double dt) {
   const auto i = static_cast<std::size_t>(body);
@@ -72,14 +65,13 @@ Approach approach_of(const Manifold& points, BodyColumns bodies, int a, int b, d
 // kick its bodies once, and pairs are asked again with these kicks.
 class MeetingPairs {
  public:
-  MeetingPairs(const Scene& scene, const ContactLaws& laws, BodyColumns before, BodyColumns after, double dt,
-               double touching)
-      : scene_(scene), laws_(laws), before_(before), dt_(dt), touching_(touching) {
+  MeetingPairs(const Scene& scene, const ContactLaws& laws, BodyColumns before, BodyColumns after, double dt)
+      : scene_(scene), laws_(laws), before_(before), dt_(dt), touching_(touching_gap(scene)) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       surfaces_.push_back(surface_of(scene.bodies[i], before, after, i, dt));
     while (ask_all()) {
     }
-    for_each_near_pair(scene, after, touching, [&](int a, int b, double) { pairs_.insert(pair_of(scene, a, b)); });
+    for_each_near_pair(scene, after, touching_, [&](int a, int b, double) { pairs_.insert(pair_of(scene, a, b)); });
   }
 
   const std::set<BodyPair>& pairs() const { return pairs_; }
@@ -164,7 +156,7 @@ std::vector<MeetingPoint> meeting_points(const Scene& scene, const ContactLaws& 
   const double size = smallest_half_width(scene);
   std::vector<MeetingPoint> found;
   Manifold points;
-  const MeetingPairs meeting(scene, laws, before, after, dt, kTouching * size);
+  const MeetingPairs meeting(scene, laws, before, after, dt);
   for (const BodyPair& pair : meeting.pairs()) {
     const auto shape = [&](int body) { return *scene.bodies[static_cast<std::size_t>(body)].shape; };
     collide(shape(pair.first), middle_of(before, after, pair.first, dt), shape(pair.second),

@@ -1,0 +1,14 @@
+// When two bodies of a truth touch.
+#pragma once
+
+#include "core/scene/scene.h"
+
+namespace rigor {
+
+// m: half the least width of the smallest moving body; infinite without one.
+double smallest_half_width(const Scene& scene);
+
+// m: a smaller gap is closed. It is beyond the rounding of a truth's positions, and below any gap that a scene means.
+double touching_gap(const Scene& scene);
+
+}  // namespace rigor
