@@ -80,6 +80,7 @@ class ImpulseStepper : public ContactStepper {
         prepare_sub_step();
         move_freely(state, t + k * h);
         threads_->run([&](std::size_t thread) { solve_sub_step(state, k == first, thread); });
+        are_impulses_known_ = true;
         if (reports_.is_asked()) reports_.add_rows(rows_, constraints);
       }
       threads_->run([&](std::size_t thread) { rows_.store_impulses(constraints, thread); });
@@ -192,8 +193,8 @@ class ImpulseStepper : public ContactStepper {
   }
 
   // A body that lands flat must not begin to rotate because of the order of its corners. Impacts are therefore solved
-  // until they agree. So are all contacts until they are found for the second time, because no impulses of an earlier
-  // step make a good start.
+  // until they agree. So are all contacts in the first sub-step, because no impulses of an earlier one make a good
+  // start.
   void solve_with_bias(std::size_t thread) {
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
@@ -249,7 +250,7 @@ class ImpulseStepper : public ContactStepper {
   ContactRowLayout rows_;
   ImpactSearch search_;
   RowSweeps impacts_, many_passes_;  // points that meet in this sub-step; see rows_of_many_passes()
-  bool are_impulses_known_ = false;  // from before contacts were last updated
+  bool are_impulses_known_ = false;  // from a sub-step before
   TurningFriction turning_;
   Rebounds rebounds_;
   StepImpulses reports_;

@@ -40,7 +40,7 @@ constexpr double kSubStepsOfFall = 4;
 constexpr int kMaxImpactSweeps = 30;       // over the points of an impact, of which few bodies have more than four
 constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold
 // Of the tolerance of impacts, which makes it 4e-9 of the speed that gravity gives within a sub-step. A stack of n
-// bodies needs about n² sweeps for each digit.
+// bodies needs some 4 n² sweeps for each digit.
 constexpr double kShareAtRest = 1e-6;
 constexpr int kMaxSweepsAtStart = 1000;
 
