@@ -39,10 +39,10 @@ constexpr double kTouching = 1e-10;
 constexpr double kSubStepsOfFall = 4;
 constexpr int kMaxImpactSweeps = 30;       // over the points of an impact, of which few bodies have more than four
 constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold
-// Of the tolerance of impacts, which makes it 4e-9 of the speed that gravity gives within a sub-step. A stack of n
+// Of the tolerance of impacts, which makes it 4e-6 of the speed that gravity gives within a sub-step. A stack of n
 // bodies needs some 4 n² sweeps for each digit.
-constexpr double kShareAtRest = 1e-6;
-constexpr int kMaxSweepsAtStart = 1000;
+constexpr double kShareAtRest = 1e-3;
+constexpr int kMaxSweepsAtStart = 300;
 
 // Without gravity: the acceleration by which the fastest speed counts, in v²/L.
 constexpr double kShareOfSpeed = 0.01;
