@@ -46,8 +46,8 @@ class Ablater {
   void add(const std::string& what, const std::string& detail, Rank rank, int a, int b, const Change& change) {
     Scene changed = scene_;
     change(changed);
-    found_.emplace_back(distance_of(a, b),
-                        Ablation{what, detail, rank, rank == kJoint, std::make_shared<Scene>(std::move(changed))});
+    found_.emplace_back(distance_of(a, b), Ablation{what, detail, rank, rank == kJoint, rank >= kJoint,
+                                                    std::make_shared<Scene>(std::move(changed))});
   }
 
   Pose pose(const std::vector<BodyState>& states, int body) const {
