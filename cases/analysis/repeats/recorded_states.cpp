@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace rigor {
 
@@ -11,7 +12,10 @@ void RecordedStates::add(const World& world) {
   world.read(now);
   bodies = now.bodies().size();
   for (std::size_t i = 0; i < bodies; ++i) {
-    for (int c = 0; c < static_cast<int>(kColumns); ++c) values.push_back(now.bodies().column(c)[i]);
+    for (int c = 0; c < static_cast<int>(kColumns); ++c) {
+      const double value = now.bodies().column(c)[i];
+      values.push_back(std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value);
+    }
   }
 }
 

@@ -163,6 +163,18 @@ BOOST_AUTO_TEST_CASE(a_save_that_leaves_something_out_shows) {
   BOOST_TEST(differing(report) == "restored ");
 }
 
+// Four links at steps far too long: after the blow-up the kernels' NaNs have other signs.
+BOOST_AUTO_TEST_CASE(a_blow_up_is_the_same_on_all_lanes) {
+  Case definition;
+  definition.id = "test", definition.scene = suite_scene("joints/mass-ratio-chain"), definition.duration = 1;
+  const StepSize dt{1.0 / 30, "1/30"};
+  const RepeatReport report =
+      repeat(engines(), definition, parse_run_name("core:rk4", engines().infos()), dt, {1, 60, {}, {}, {"lanes"}});
+  const RecordedStates states = base_states(engines(), definition, report.run, dt, 60);
+  BOOST_TEST(std::isnan(states.values.back()));
+  BOOST_TEST(report.repeats());
+}
+
 BOOST_AUTO_TEST_CASE(an_engine_without_memory_for_copies_is_not_broken) {
   EngineTable table = built_in_engines();
   table.add(std::make_unique<ForgetfulEngine>());
