@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "cases/analysis/repeats/hash_record.h"
 #include "cases/analysis/repeats/repeats.h"
@@ -88,6 +89,19 @@ class RepeatCommand : public Command {
       throw InputError("rigor repeat: --change belongs to the table, which --record and --against do not make");
   }
 
+  // Does the work for each case. Of several cases those are left out that the engine cannot run, and named on stderr.
+  static void for_each(const std::vector<Case>& cases, const std::function<void(const Case&)>& work) {
+    std::size_t left_out = 0;
+    for (const Case& definition : cases) {
+      try {
+        work(definition);
+      } catch (const InputError& error) {
+        if (++left_out == cases.size()) throw;
+        say(fmt::format("rigor repeat: leaves out {}: {}", definition.id, error.what()));
+      }
+    }
+  }
+
   HashRecord recorded_run(const Case& definition, const RunName& name, const EngineTable& engines) const {
     const RecordedStates states = base_states(engines, definition, name, definition.dt.front(), timeout_.seconds);
     return hash_record(definition, name, engines.info_of(name.engine), definition.dt.front(), hashes_of(states));
@@ -95,7 +109,7 @@ class RepeatCommand : public Command {
 
   int record(const std::vector<Case>& cases, const RunName& name, const EngineTable& engines) const {
     std::string text;
-    for (const Case& definition : cases) text += line_of(recorded_run(definition, name, engines));
+    for_each(cases, [&](const Case& definition) { text += line_of(recorded_run(definition, name, engines)); });
     std::ofstream file(record_, std::ios::binary);
     file << text << std::flush;
     if (!file) throw InputError(fmt::format("--record: cannot write '{}'", record_));
@@ -106,12 +120,13 @@ class RepeatCommand : public Command {
     const std::vector<HashRecord> records = read_hash_records(against_);
     int code = kGood;
     std::string text;
-    for (const Case& definition : cases) {
-      const HashRecord own = recorded_run(definition, name, engines);
+    std::vector<HashRecord> runs;
+    for_each(cases, [&](const Case& definition) { runs.push_back(recorded_run(definition, name, engines)); });
+    for (const HashRecord& own : runs) {
       const std::vector<std::uint64_t>& due = matching_record(records, own, against_).hashes;
       const auto at = std::mismatch(due.begin(), due.end(), own.hashes.begin()).first;
       const bool is_same = at == due.end();
-      text += fmt::format("{}: {} at {} s: {}\n", definition.id, name.text, own.dt,
+      text += fmt::format("{}: {} at {} s: {}\n", own.case_id, name.text, own.dt,
                           is_same ? fmt::format("same bits in {} steps", due.size() - 1)
                                   : fmt::format("DIFFERS from step {} on", at - due.begin()));
       if (!is_same) code = kGateFailed;
@@ -123,7 +138,7 @@ class RepeatCommand : public Command {
   int make_table(const std::vector<Case>& cases, const RunName& name, const EngineTable& engines) const {
     Json all = Json::array();
     int code = kGood;
-    for (const Case& definition : cases) {
+    for_each(cases, [&](const Case& definition) {
       const RepeatReport report = watched_repeat(engines, definition, name);
       if (!report.repeats()) code = kGateFailed;
       if (json_.is_on) {
@@ -131,7 +146,7 @@ class RepeatCommand : public Command {
       } else {
         print_table(text_of(report));
       }
-    }
+    });
     if (json_.is_on) print(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     return code;
   }

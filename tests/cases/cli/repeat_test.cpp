@@ -92,6 +92,25 @@ BOOST_AUTO_TEST_CASE(a_plugin_that_restores_less_than_it_had_does_not_repeat) {
   BOOST_TEST(holds(wordless.out + wordless.err, "its snapshot is no text"), wordless.out + wordless.err);
 }
 
+BOOST_AUTO_TEST_CASE(of_several_cases_those_are_left_out_that_the_engine_cannot_run) {
+  folder.write("top.toml", tumbling_top("top"));
+  const std::string far =
+      "[[scene.joint]]\ntype = \"compound\"\na = \"world\"\nb = \"top\"\naxes = [{ type = \"hinge\", "
+      "anchor = [0, 0, 0], axis = [0, 0, 1] }, { type = \"hinge\", anchor = [0, 0, 0], axis = [1, 0, 0] }]\n";
+  std::string text = content("top.toml");
+  folder.write("held.toml", text.insert(text.find("[run]"), far));
+  const Answer answer = run({"repeat", "top.toml", "held.toml", "--engine", "ode", "--change", "again"});
+  BOOST_TEST(answer.code == 0, answer.out + answer.err);
+  BOOST_TEST(holds(answer.out, "top.toml: ode at"), answer.out);
+  BOOST_TEST(holds(answer.err, "leaves out held.toml: ode: unsupported: ode has no joint:compound"), answer.err);
+  const Answer alone = run({"repeat", "held.toml", "--engine", "ode", "--change", "again"});
+  BOOST_TEST(alone.code == 2, alone.out + alone.err);
+  BOOST_TEST(run({"repeat", "top.toml", "held.toml", "--engine", "ode", "--record", "two.jsonl"}).code == 0);
+  const Answer against = run({"repeat", "top.toml", "held.toml", "--engine", "ode", "--against", "two.jsonl"});
+  BOOST_TEST(against.code == 0, against.out + against.err);
+  BOOST_TEST(holds(against.out, "top.toml: ode at"), against.out);
+}
+
 // The toy, with sines in its motion. On a processor with AVX2 and FMA some sines of glibc differ in the last bit from
 // those of an older processor: 1 of 2000, of which this takes 60000.
 BOOST_AUTO_TEST_CASE(an_engine_that_takes_sines_from_the_c_library_depends_on_the_processor) {
