@@ -45,19 +45,25 @@ PlantedPart planted_part(unsigned seed) {
       part.name = "the drive of " + scene.joint_name(static_cast<std::size_t>(scene.motors[0].joint));
       part.bodies = links_of(scene);
       part.change = [factor](Scene& s) {
-        s.motors[0].effort *= factor;
-        if (s.motors[0].servo) s.motors[0].servo->kp *= factor;
+        for (Motor& motor : s.motors) {
+          motor.effort *= factor;
+          if (motor.servo) motor.servo->kp *= factor;
+        }
       };
       break;
     case 1:
       scene.contact_pairs.push_back({body, ground, scene.contact_default});
       part.name = "the friction of '" + name + "' and 'ground'", part.bodies = {body};
-      part.change = [factor](Scene& s) { s.contact_pairs[0].law.friction *= factor; };
+      part.change = [factor](Scene& s) {
+        for (ContactPair& pair : s.contact_pairs) pair.law.friction *= factor;
+      };
       break;
     case 2:
       scene.joints[0].stiffness = n.between(5, 20), scene.joints[0].rest = n.between(-0.5, 0.5);
       part.name = "the spring and damper of " + scene.joint_name(0), part.bodies = links_of(scene);
-      part.change = [factor](Scene& s) { s.joints[0].stiffness *= factor; };
+      part.change = [factor](Scene& s) {
+        for (Joint& joint : s.joints) joint.stiffness *= factor;
+      };
       break;
     default:
       TimedForce force;
@@ -65,7 +71,9 @@ PlantedPart planted_part(unsigned seed) {
       force.from = n.between(0, 0.4), force.until = force.from + n.between(0.1, 0.5);
       scene.forces = {force};
       part.name = "the timed force on '" + name + "'", part.bodies = {body};
-      part.change = [factor](Scene& s) { s.forces[0].force *= factor; };
+      part.change = [factor](Scene& s) {
+        for (TimedForce& own : s.forces) own.force *= factor;
+      };
   }
   return part;
 }
@@ -86,6 +94,8 @@ BOOST_AUTO_TEST_CASE(the_planted_part_its_body_and_its_instant_are_named) {
         b{parse_run_name("changed", table.infos()), {kStep, "1/240"}};
     Case definition;
     definition.id = "planted", definition.scene = part.scene, definition.duration = kStep * kSteps;
+    if (!why_unsupported(table.info_of(engine), a.name.settings, part.scene, kStep).empty())
+      continue;  // capsules in DART
     const Divergence found = diverge(table, definition, a, b, default_parting_bounds(part.scene), {1, 60});
     if (!found.parting) continue;  // a force that ends before it matters, a body that never slides
     const auto states = [&](const DivergingRun& run) {
@@ -98,10 +108,14 @@ BOOST_AUTO_TEST_CASE(the_planted_part_its_body_and_its_instant_are_named) {
     const bool is_body = cause && std::count(part.bodies.begin(), part.bodies.end(), cause->at.body) == 1;
     const bool is_instant = cause && cause->at.time >= kStep * (static_cast<double>(difference->step) - 1.5);
     ++tried, right += is_part && is_body && is_instant;
+    std::string evidence;
+    for (std::size_t k = 0; !is_part && cause && k < std::min<std::size_t>(3, cause->evidence.size()); ++k)
+      evidence += "; " + cause->evidence[k].what + ": " + std::to_string(cause->evidence[k].share);
     BOOST_TEST_MESSAGE("scene " << seed << ", " << engine << ", " << part.name << ": parts at " << found.parting->time
                                 << " s, " << (is_part ? "named" : "MISNAMED") << (is_body ? "" : ", ANOTHER BODY")
                                 << (is_instant ? "" : ", TOO EARLY") << ": "
-                                << (cause ? cause->what + " at " + std::to_string(cause->at.time) : "nothing"));
+                                << (cause ? cause->what + " at " + std::to_string(cause->at.time) : "nothing")
+                                << evidence);
   }
   BOOST_TEST_MESSAGE(right << " of " << tried << " right");
   BOOST_TEST(static_cast<double>(right) >= 0.95 * static_cast<double>(tried));
