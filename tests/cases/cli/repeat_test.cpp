@@ -41,7 +41,8 @@ BOOST_AUTO_TEST_CASE(one_change_can_be_tried_alone) {
     const Answer answer = run(words);
     BOOST_TEST_REQUIRE(answer.code == 0, answer.out + answer.err);
     std::string said;
-    for (const Json& change : Json::parse(answer.out)[0].at("changes")) {
+    const Json report = Json::parse(answer.out);
+    for (const Json& change : report[0].at("changes")) {
       const std::string name = change.at("change");
       if (!said.ends_with(name + " ")) said += name + " ";
     }
@@ -94,11 +95,15 @@ BOOST_AUTO_TEST_CASE(a_plugin_that_restores_less_than_it_had_does_not_repeat) {
 
 BOOST_AUTO_TEST_CASE(of_several_cases_those_are_left_out_that_the_engine_cannot_run) {
   folder.write("top.toml", tumbling_top("top"));
-  const std::string far =
-      "[[scene.joint]]\ntype = \"compound\"\na = \"world\"\nb = \"top\"\naxes = [{ type = \"hinge\", "
-      "anchor = [0, 0, 0], axis = [0, 0, 1] }, { type = \"hinge\", anchor = [0, 0, 0], axis = [1, 0, 0] }]\n";
+  const std::string held =
+      "[[scene.joint]]\ntype = \"compound\"\na = \"world\"\nb = \"top\"\naxes = [{ type = \"slider\", axis = [1, 0, 0] "
+      "}, "
+      "{ type = \"slider\", axis = [0, 1, 0] }, { type = \"slider\", axis = [0, 0, 1] }, "
+      "{ type = \"hinge\", anchor = [0, 0, 0], axis = [0, 0, 1] }, { type = \"hinge\", anchor = [0, 0, 0], axis = [1, "
+      "0, 0] }, "
+      "{ type = \"hinge\", anchor = [0, 0, 0], axis = [0, 1, 0] }]\n";
   std::string text = content("top.toml");
-  folder.write("held.toml", text.insert(text.find("[run]"), far));
+  folder.write("held.toml", text.insert(text.find("[run]"), held));
   const Answer answer = run({"repeat", "top.toml", "held.toml", "--engine", "ode", "--change", "again"});
   BOOST_TEST(answer.code == 0, answer.out + answer.err);
   BOOST_TEST(holds(answer.out, "top.toml: ode at"), answer.out);
