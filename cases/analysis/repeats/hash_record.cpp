@@ -12,7 +12,7 @@
 namespace rigor {
 namespace {
 
-constexpr int kRecordVersion = 1;
+constexpr int kRecordVersion = 2;    // 1: each hash was made in one chain
 constexpr std::size_t kDigits = 16;  // of a hash, hexadecimal
 
 // FNV-1a (Fowler, Noll, Vo).
