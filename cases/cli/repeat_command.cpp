@@ -97,7 +97,7 @@ class RepeatCommand : public Command {
         work(definition);
       } catch (const InputError& error) {
         if (++left_out == cases.size()) throw;
-        say(fmt::format("rigor repeat: leaves out {}: {}", definition.id, error.what()));
+        say(fmt::format("leaves out {}: {}", definition.id, error.what()));
       }
     }
   }
