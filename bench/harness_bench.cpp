@@ -11,10 +11,12 @@
 #include "bench/benchmarks.h"
 #include "bench/raw_engines.h"
 #include "bench/scenes.h"
+#include "cases/analysis/repeats/recorded_states.h"
 #include "cases/case/case_reader.h"
 #include "cases/case/suite.h"
 #include "cases/cli/vocabulary.h"
 #include "cases/truth/truth.h"
+#include "core/engine/run_name.h"
 
 namespace rigor::bench {
 namespace {
@@ -84,6 +86,30 @@ void time_seam(benchmark::State& state, const std::string& name, const std::stri
         return engine.load(scene, {method, {}, Track::matched});
       },
       run, sum_of_positions);
+}
+
+// A run whose states are hashed, as `rigor repeat --record` does it, and the same run alone.
+void time_hashing(benchmark::State& state, const std::string& scene_name, int count, const std::string& run,
+                  bool is_hashed) {
+  constexpr long kSteps = 240;
+  const SceneRow& row = scene_row(scene_name);
+  const Scene& scene = scene_of(row, count);
+  const RunName name = parse_run_name(run, infos_of(engines()));
+  const Engine& engine = find_engine(engines(), name.engine);
+  double seconds = 0, checksum = 0;
+  for (auto _ : state) {
+    const double start = thread_seconds();
+    if (is_hashed) {
+      checksum = static_cast<double>(hashes_of(recorded(engine, name.settings, scene, row.dt, kSteps)).back());
+    } else {
+      const auto world = engine.load(scene, name.settings);
+      for (long n = 0; n < kSteps; ++n) world->step(row.dt);
+    }
+    const double taken = thread_seconds() - start;
+    seconds += taken;
+    state.SetIterationTime(taken);
+  }
+  report(state, seconds, static_cast<double>(state.iterations()) * kSteps * count, checksum);
 }
 
 // A folder that goes when the program ends.
@@ -163,6 +189,14 @@ void register_harness() {
     for (const RawEngine& raw : raw_engines()) {
       add("raw/" + raw.name, [&raw, count](benchmark::State& s) { time_raw(s, raw.make, count); });
       add("seam/" + raw.name, [&raw, count](benchmark::State& s) { time_seam(s, raw.name, raw.method, count); });
+    }
+  }
+  for (const char* run : {"core", "ode", "bullet", "mujoco", "dart"}) {
+    for (const auto& [scene, count] : {std::pair("chain", 20), std::pair("pile", 20), std::pair("pile", 216)}) {
+      for (const bool is_hashed : {false, true}) {
+        const std::string name = fmt::format("harness/{}/{}/{}/{}", is_hashed ? "hashed" : "plain", scene, count, run);
+        benchmark::RegisterBenchmark(name.c_str(), time_hashing, scene, count, run, is_hashed)->UseManualTime();
+      }
     }
   }
   benchmark::RegisterBenchmark("harness/cell", time_cells)->UseManualTime()->Iterations(2);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "cases/analysis/repeats/hash_record.h"
 #include "cases/analysis/repeats/repeats.h"
@@ -20,6 +21,7 @@
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
 #include "core/base/json.h"
+#include "core/base/near_match.h"
 
 namespace rigor {
 namespace {
@@ -51,6 +53,7 @@ class RepeatCommand : public Command {
   void declare(Options& options) override {
     cases_.declare(options), engine_.declare(options), steps_.declare(options), duration_.declare(options);
     jobs_.declare(options), json_.declare(options), timeout_.declare(options);
+    options.add({"--change", "NAME", "only this change: " + listed(change_names()) + "; may be repeated"}, changes_);
     options.add({"--record", "FILE", "write the hashes of each step to a file, and make no table"}, record_);
     options.add({"--against", "FILE", "compare with the hashes of --record, from another machine, and make no table"},
                 against_);
@@ -59,6 +62,7 @@ class RepeatCommand : public Command {
   int run(const Invocation& invocation) override {
     if (!record_.empty() && !against_.empty())
       throw InputError("rigor repeat: --record and --against exclude each other");
+    check_changes();
     const EngineTable engines = engine_.outside.table(timeout_.seconds);
     const RunName name = run_asked_for(engine_, invocation.command, engines);
     if (steps_.dt.size() > 1) throw InputError("rigor repeat: takes at most one --dt");
@@ -74,6 +78,30 @@ class RepeatCommand : public Command {
   }
 
  private:
+  void check_changes() const {
+    const std::vector<std::string> known = change_names();
+    for (const std::string& name : changes_) {
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError(
+            fmt::format("--change: found '{}'{}; allowed: {}", name, did_you_mean(name, known), listed(known)));
+    }
+    if (!changes_.empty() && !(record_.empty() && against_.empty()))
+      throw InputError("rigor repeat: --change belongs to the table, which --record and --against do not make");
+  }
+
+  // Does the work for each case. Of several cases those are left out that the engine cannot run, and named on stderr.
+  static void for_each(const std::vector<Case>& cases, const std::function<void(const Case&)>& work) {
+    std::size_t left_out = 0;
+    for (const Case& definition : cases) {
+      try {
+        work(definition);
+      } catch (const InputError& error) {
+        if (++left_out == cases.size()) throw;
+        say(fmt::format("leaves out {}: {}", definition.id, error.what()));
+      }
+    }
+  }
+
   HashRecord recorded_run(const Case& definition, const RunName& name, const EngineTable& engines) const {
     const RecordedStates states = base_states(engines, definition, name, definition.dt.front(), timeout_.seconds);
     return hash_record(definition, name, engines.info_of(name.engine), definition.dt.front(), hashes_of(states));
@@ -81,7 +109,7 @@ class RepeatCommand : public Command {
 
   int record(const std::vector<Case>& cases, const RunName& name, const EngineTable& engines) const {
     std::string text;
-    for (const Case& definition : cases) text += line_of(recorded_run(definition, name, engines));
+    for_each(cases, [&](const Case& definition) { text += line_of(recorded_run(definition, name, engines)); });
     std::ofstream file(record_, std::ios::binary);
     file << text << std::flush;
     if (!file) throw InputError(fmt::format("--record: cannot write '{}'", record_));
@@ -92,12 +120,13 @@ class RepeatCommand : public Command {
     const std::vector<HashRecord> records = read_hash_records(against_);
     int code = kGood;
     std::string text;
-    for (const Case& definition : cases) {
-      const HashRecord own = recorded_run(definition, name, engines);
+    std::vector<HashRecord> runs;
+    for_each(cases, [&](const Case& definition) { runs.push_back(recorded_run(definition, name, engines)); });
+    for (const HashRecord& own : runs) {
       const std::vector<std::uint64_t>& due = matching_record(records, own, against_).hashes;
       const auto at = std::mismatch(due.begin(), due.end(), own.hashes.begin()).first;
       const bool is_same = at == due.end();
-      text += fmt::format("{}: {} at {} s: {}\n", definition.id, name.text, own.dt,
+      text += fmt::format("{}: {} at {} s: {}\n", own.case_id, name.text, own.dt,
                           is_same ? fmt::format("same bits in {} steps", due.size() - 1)
                                   : fmt::format("DIFFERS from step {} on", at - due.begin()));
       if (!is_same) code = kGateFailed;
@@ -109,7 +138,7 @@ class RepeatCommand : public Command {
   int make_table(const std::vector<Case>& cases, const RunName& name, const EngineTable& engines) const {
     Json all = Json::array();
     int code = kGood;
-    for (const Case& definition : cases) {
+    for_each(cases, [&](const Case& definition) {
       const RepeatReport report = watched_repeat(engines, definition, name);
       if (!report.repeats()) code = kGateFailed;
       if (json_.is_on) {
@@ -117,20 +146,23 @@ class RepeatCommand : public Command {
       } else {
         print_table(text_of(report));
       }
-    }
+    });
     if (json_.is_on) print(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     return code;
   }
 
   RepeatReport watched_repeat(const EngineTable& engines, const Case& definition, const RunName& name) const {
     Progress progress("changes");
-    RepeatOptions options{jobs_.count, timeout_.seconds, [&] { return hashes_elsewhere(definition, name); },
-                          [&](std::size_t done, std::size_t all) { progress.show(done, all); }};
+    RepeatOptions options{
+        jobs_.count, timeout_.seconds,
+        [&](const std::string& environment) { return hashes_elsewhere(definition, name, environment); },
+        [&](std::size_t done, std::size_t all) { progress.show(done, all); }, changes_};
     return repeat(engines, definition, name, definition.dt.front(), options);
   }
 
   // By this program, started anew.
-  std::vector<std::uint64_t> hashes_elsewhere(const Case& definition, const RunName& name) const {
+  std::vector<std::uint64_t> hashes_elsewhere(const Case& definition, const RunName& name,
+                                              const std::string& environment) const {
     const ScratchFile file;
     std::vector<std::string> words = {std::filesystem::read_symlink("/proc/self/exe").string(),
                                       "repeat",
@@ -147,7 +179,7 @@ class RepeatCommand : public Command {
                                       file.path()};
     const std::vector<std::string> from = where_from(name.text);
     words.insert(words.end(), from.begin(), from.end());
-    if (std::system((pasted(words) + " >/dev/null").c_str()) != 0)
+    if (std::system((environment + " " + pasted(words) + " >/dev/null").c_str()) != 0)
       throw std::runtime_error(fmt::format("{}: a new process could not repeat the run", name.text));
     return read_hash_records(file.path()).front().hashes;
   }
@@ -159,20 +191,23 @@ class RepeatCommand : public Command {
   JobsOption jobs_;
   JsonOption json_;
   TimeoutOption timeout_;
+  std::vector<std::string> changes_;
   std::string record_, against_;
 };
 
 }  // namespace
 
 CommandRow repeat_row() {
-  return {"repeat",
-          "say which changes, that should not matter, change the bits of a run",
-          "CASE",
-          kCases,
-          {{"rigor repeat contact/stack-of-ten --engine ode --dt 1/240", "the table of changes"},
-           {"rigor repeat springs --engine core:rk4 --record here.jsonl", "hashes to compare on another machine"},
-           {"rigor repeat springs --engine core:rk4 --against here.jsonl", "exit code 1 if a bit differs"}},
-          make_command<RepeatCommand>};
+  return {
+      "repeat",
+      "say which changes, that should not matter, change the bits of a run",
+      "CASE",
+      kCases,
+      {{"rigor repeat contact/stack-of-ten --engine ode --dt 1/240", "the table of changes"},
+       {"rigor repeat springs --engine core:rk4 --change lanes", "one change alone: each instruction set of the core"},
+       {"rigor repeat springs --engine core:rk4 --record here.jsonl", "hashes to compare on another machine"},
+       {"rigor repeat springs --engine core:rk4 --against here.jsonl", "exit code 1 if a bit differs"}},
+      make_command<RepeatCommand>};
 }
 
 }  // namespace rigor

@@ -46,8 +46,8 @@ class Ablater {
   void add(const std::string& what, const std::string& detail, Rank rank, int a, int b, const Change& change) {
     Scene changed = scene_;
     change(changed);
-    found_.emplace_back(distance_of(a, b),
-                        Ablation{what, detail, rank, rank == kJoint, std::make_shared<Scene>(std::move(changed))});
+    found_.emplace_back(distance_of(a, b), Ablation{what, detail, rank, rank == kJoint, rank >= kJoint,
+                                                    std::make_shared<Scene>(std::move(changed))});
   }
 
   Pose pose(const std::vector<BodyState>& states, int body) const {
@@ -123,8 +123,11 @@ class Ablater {
     const double speed = 4 * scene_.gravity.norm() * step_.seconds, near = speed * step_.seconds + 1e-9;
     const bool rests = before.gap <= near && std::abs(before.parting) <= speed + 1e-9;
     const char* word = !rests ? "begins" : after.gap > near ? "ends" : "lasts";
-    return fmt::format("{}: gap {:.3g} m before, {:.3g} m after", word, before.gap, after.gap);
+    return fmt::format("{}: gap {:.3g} m before, {:.3g} m after", word, unrounded(before.gap), unrounded(after.gap));
   }
+
+  // m: what roundings leave of a closed gap is none.
+  static double unrounded(double gap) { return std::abs(gap) < 1e-14 ? 0 : gap; }
 
   std::string friction_detail(const Touch& before, const Touch& after) const {
     // A contact point that slides a thousandth of what gravity adds in a step stands still.
@@ -153,14 +156,23 @@ class Ablater {
       add("the spring and damper of " + name, "", kSpring, joint.a, joint.b,
           [k](Scene& s) { s.joints[k].stiffness = s.joints[k].damping = 0; });
     }
-    add("the constraint of " + name, "", kJoint, joint.a, joint.b, [k](Scene& s) {
-      s.joints.erase(s.joints.begin() + static_cast<long>(k));
-      const int own = static_cast<int>(k);
-      std::erase_if(s.motors, [own](const Motor& motor) { return motor.joint == own; });
-      std::erase_if(s.couplings, [own](const Coupling& row) { return row.joint == own || row.to == own; });
-      for (Motor& motor : s.motors) motor.joint -= motor.joint > own;
-      for (Coupling& row : s.couplings) row.joint -= row.joint > own, row.to -= row.to > own;
-    });
+    // An axis of a compound joint locks nothing by itself.
+    if (is_axis_of_compound(joint)) return;
+    add("the constraint of " + name, "", kJoint, joint.a, joint.b, [k](Scene& s) { remove_joint(s, k); });
+  }
+
+  // With what acts on it; of a compound joint with its axes.
+  static void remove_joint(Scene& scene, std::size_t first) {
+    std::size_t end = first + 1;
+    while (end < scene.joints.size() && is_axis_of_compound(scene.joints[end])) ++end;
+    const int from = static_cast<int>(first), to = static_cast<int>(end);
+    const auto is_gone = [=](int joint) { return from <= joint && joint < to; };
+    const auto moved = [=](int joint) { return joint < to ? joint : joint - (to - from); };
+    scene.joints.erase(scene.joints.begin() + from, scene.joints.begin() + to);
+    std::erase_if(scene.motors, [&](const Motor& motor) { return is_gone(motor.joint); });
+    std::erase_if(scene.couplings, [&](const Coupling& row) { return is_gone(row.joint) || is_gone(row.to); });
+    for (Motor& motor : scene.motors) motor.joint = moved(motor.joint);
+    for (Coupling& row : scene.couplings) row.joint = moved(row.joint), row.to = moved(row.to);
   }
 
   // It passes on differences as the constraint of a joint does.

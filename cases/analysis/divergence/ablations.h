@@ -19,6 +19,8 @@ struct Ablation {
   // Without a joint a body is cut off from differences that enter elsewhere. It explains a difference only if that of
   // all bodies vanishes.
   bool transmits = false;
+  // Without gravity or a joint nothing loads the contacts and limits near it, so it explains what they do, too.
+  bool is_general = false;
   std::shared_ptr<const Scene> scene;
 };
 

@@ -10,7 +10,9 @@ namespace {
 
 constexpr std::size_t kMostParts = 60;  // taken away, one at a time: some tenths of a second
 constexpr double kShareNamed = 0.5;     // a part is named that takes at least half of the difference with it
-constexpr double kSharesAlike = 0.05;   // shares that differ by less say the same
+constexpr double kSharesAlike = 0.05;   // shares that differ by less say the same,
+constexpr double kMuchLess = 10;        // but not if one part leaves so many times less than the other,
+constexpr double kRestAlike = 0.01;     // unless both leave next to nothing
 constexpr double kFewRoundings = 64;    // of a step's sums
 
 // The share of the bound by which the body differs in two motions after one sample, or any body if it is kWorld.
@@ -44,12 +46,19 @@ double share_of_rounding(const BodyState& state, const PartingBounds& bounds, do
   return share_of((rounded * roundoff).carried(seconds), bounds);
 }
 
+// Of parts that explain it alike the one with the smallest rank. A part that leaves much less than all others is named
+// before them: the load that differs, and not the friction that it overcomes. General parts never count as such.
 void name_cause(Cause& cause) {
   std::stable_sort(cause.evidence.begin(), cause.evidence.end(),
                    [](const Evidence& x, const Evidence& y) { return x.share > y.share; });
+  const auto first =
+      std::find_if(cause.evidence.begin(), cause.evidence.end(), [](const Evidence& one) { return !one.is_general; });
+  const double least = first == cause.evidence.end() ? 1 : 1 - first->share;
+  const double alike = std::max(kRestAlike, kMuchLess * least);
   const Evidence* best = nullptr;
   for (const Evidence& one : cause.evidence) {
     if (one.share < kShareNamed || one.share < cause.evidence.front().share - kSharesAlike) break;
+    if (!one.is_general && 1 - one.share > alike) continue;
     if (!best || one.rank < best->rank) best = &one;
   }
   if (best) cause.what = best->what, cause.detail = best->detail, cause.share = best->share;
@@ -100,7 +109,7 @@ std::vector<Cause> find_causes(const RunPair& pair, const Scene& scene, const Mo
     for (std::size_t k = 0; k < groups[n].parts.size(); ++k) {
       const Ablation& part = groups[n].parts[k];
       const double rest = share(2 + k, part.transmits ? kWorld : cause.at.body);
-      if (rest >= 0) cause.evidence.push_back({part.what, part.detail, 1 - rest / whole, part.rank});
+      if (rest >= 0) cause.evidence.push_back({part.what, part.detail, 1 - rest / whole, part.rank, part.is_general});
     }
     const BodyState state = motion_a.body(cause.at.sample, static_cast<std::size_t>(cause.at.body));
     cause.roundings = whole / share_of_rounding(state, bounds, left, unit_roundoff(pair));

@@ -14,6 +14,7 @@ struct Evidence {
   std::string what, detail;  // as in Ablation
   double share = 0;          // of the difference, that vanishes with the part; negative if it grows
   int rank = 0;
+  bool is_general = false;
 };
 
 struct Cause {

@@ -38,16 +38,6 @@ void refuse_unsupported(const EngineTable& engines, const DivergingRun& run, con
   if (!why.empty()) throw InputError(fmt::format("{}: unsupported: {}", run.name.text, why));
 }
 
-// A scene restarts in the middle of a run with its joints' coordinates at 0. Those of axes in series depend on each
-// other, and are not worked out here.
-void refuse_compound_joints(const Scene& scene) {
-  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
-    if (std::holds_alternative<CompoundJoint>(scene.joints[k].type))
-      throw InputError(fmt::format("rigor diverge: compound joints cannot restart during a run; the scene has {}",
-                                   scene.joint_name(k)));
-  }
-}
-
 SettingsInForce settings_in_force(const EngineTable& engines, const DivergingRun& run, const Scene& scene,
                                   double limit) {
   const FromChild answer = from_child(limit, [&] {
@@ -153,7 +143,6 @@ Divergence diverge(const EngineTable& engines, const Case& definition, const Div
                    const PartingBounds& bounds, const DivergenceOptions& options) {
   constexpr std::size_t kCauses = 3;
   const Scene& scene = definition.scene;
-  refuse_compound_joints(scene);
   for (const DivergingRun* run : {&a, &b}) refuse_unsupported(engines, *run, scene);
   Divergence found;
   found.case_id = definition.id, found.a = a, found.b = b, found.bounds = bounds;

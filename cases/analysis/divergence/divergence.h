@@ -9,7 +9,7 @@
 #include "cases/analysis/divergence/gap_series.h"
 #include "cases/analysis/divergence/injections.h"
 #include "cases/analysis/divergence/parting.h"
-#include "cases/analysis/divergence/setting_swaps.h"
+#include "cases/analysis/divergence/swap_search.h"
 
 namespace rigor {
 

@@ -46,18 +46,23 @@ struct WorstShare {
   double share = 0;
   int body = 0;
   BodyGap gap;
+  std::size_t alike = 0;  // other bodies
 };
 
 // Of states after one step, `x` and `y`, carried on for `seconds`.
 WorstShare worst_share(const std::vector<BodyState>& x, const std::vector<BodyState>& y, const Scene& scene,
                        const PartingBounds& bounds, double seconds) {
+  constexpr double kAlike = 0.99;
   WorstShare worst;
+  std::vector<double> shares;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (scene.bodies[i].fixed) continue;
     const BodyGap gap = gap_between(x[i], y[i]);
-    const double share = share_of(gap.carried(seconds), bounds);
-    if (share > worst.share) worst = {share, static_cast<int>(i), gap};
+    shares.push_back(share_of(gap.carried(seconds), bounds));
+    if (shares.back() > worst.share) worst = {shares.back(), static_cast<int>(i), gap, 0};
   }
+  const auto alike = std::count_if(shares.begin(), shares.end(), [&](double s) { return s >= kAlike * worst.share; });
+  if (worst.share > 0) worst.alike = static_cast<std::size_t>(alike) - 1;
   return worst;
 }
 
@@ -159,8 +164,8 @@ Injections find_injections(const RunPair& pair, const Scene& scene, const Motion
     const WorstShare worst = worst_share(end_of(x), end_of(y), scene, bounds, left),
                      in_a = worst_share(end_of(x), motion_a.state(steps[k] + 1), scene, bounds, left),
                      in_b = worst_share(end_of(z), motion_b.state(steps[k] + 1), scene, bounds, left);
-    found.steps.push_back({h * static_cast<double>(steps[k]), steps[k], worst.body, worst.share, worst.gap, in_a.share,
-                           in_b.share, in_a.body, in_b.body});
+    found.steps.push_back({h * static_cast<double>(steps[k]), steps[k], worst.body, worst.share, worst.alike, worst.gap,
+                           in_a.share, in_b.share, in_a.body, in_b.body});
     gaps.push_back(carried_gap(end_of(x), end_of(y), parting.body, left));
   }
   if (found.steps.empty()) return found;
@@ -176,7 +181,14 @@ std::vector<Injection> largest_injections(const Injections& injections, std::siz
   constexpr double kOfLargest = 0.01;     // smaller ones explain nothing of the gap
   constexpr std::size_t kStepsApart = 5;  // steps: an engine may spread one event over some steps
   std::vector<Injection> by_size = injections.steps, chosen;
-  std::stable_sort(by_size.begin(), by_size.end(), [](const auto& x, const auto& y) { return x.share > y.share; });
+  // Gravity, for example, gives every step the same difference but for roundings.
+  const auto four_digits = [](double share) {
+    int exponent = 0;
+    const double mantissa = std::frexp(share, &exponent);
+    return std::ldexp(std::round(1e4 * mantissa), exponent);
+  };
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [&](const auto& x, const auto& y) { return four_digits(x.share) > four_digits(y.share); });
   for (const Injection& one : by_size) {
     const bool is_near = std::any_of(chosen.begin(), chosen.end(), [&](const Injection& other) {
       return std::max(one.sample, other.sample) - std::min(one.sample, other.sample) < kStepsApart;

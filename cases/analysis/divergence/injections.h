@@ -17,6 +17,7 @@ struct Injection {
   std::size_t sample = 0;  // of its start
   int body = 0;            // with the largest share
   double share = 0;
+  std::size_t alike = 0;              // other bodies that have the same share, but for 1 %
   BodyGap gap;                        // of that body, at the step's end
   double hidden_a = 0, hidden_b = 0;  // shares by which the running worlds differ from fresh ones
   int hidden_body_a = 0, hidden_body_b = 0;
@@ -42,6 +43,7 @@ std::vector<std::shared_ptr<const Scene>> scenes_at(const Scene& scene, const Mo
                                                     const std::vector<std::size_t>& samples, double seconds);
 
 // The largest injections, at most `most`, none of them nearer than 5 steps to a larger one or below 1 % of the largest.
+// Of injections that are alike in four digits the first counts as larger.
 std::vector<Injection> largest_injections(const Injections& injections, std::size_t most);
 
 }  // namespace rigor

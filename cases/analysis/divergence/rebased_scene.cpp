@@ -30,6 +30,17 @@ double angle_about(const Vec3& axis, const Quat& turn) {
   return std::remainder(2 * std::atan2(turn.vec().dot(axis), turn.w()), kWholeTurn);
 }
 
+// The end of a compound joint at these states.
+SeriesEnd end_of(const Scene& scene, const std::vector<BodyState>& bodies, int body) {
+  SeriesEnd end;
+  if (body == kWorld) return end;
+  const bool stays = scene.bodies[static_cast<std::size_t>(body)].fixed;
+  const BodyState& now = bodies[static_cast<std::size_t>(body)];
+  const BodyPose pose = stays ? scene.pose(body) : BodyPose{now.position, now.orientation.normalized()};
+  end.position = pose.position, end.R = matrix_of(pose.orientation);
+  return end;
+}
+
 double coordinate_of(const Scene& scene, const Joint& joint, const std::vector<BodyState>& bodies) {
   const Vec3* axis = free_axis(joint);
   if (!axis) return 0;
@@ -40,13 +51,21 @@ double coordinate_of(const Scene& scene, const Joint& joint, const std::vector<B
   return (a.turn * *axis).dot(b.point(centre) - a.point(centre));
 }
 
-void move_joint(Joint& joint, const Carrier& a, const Carrier& b, double x) {
+void move_axes(Joint& joint, const std::vector<SeriesAxis>& axes) {
+  if (auto* whole = std::get_if<CompoundJoint>(&joint.type)) whole->axes = axes;
+  if (auto* one = std::get_if<CompoundAxis>(&joint.type)) one->axes = axes;
+}
+
+void move_vectors(Joint& joint, const Carrier& a, const Carrier& b) {
   for_each_vector(joint.type, [&](const char* key, JointVector kind, Vec3& vector) {
     // A universal joint's second axis is fixed in b.
     const Carrier& carrier = std::strcmp(key, "axis2") == 0 ? b : a;
     if (kind == JointVector::point) vector = carrier.point(vector);
     if (kind == JointVector::direction) vector = (carrier.turn * vector).normalized();
   });
+}
+
+void move_coordinate(Joint& joint, double x) {
   joint.rest -= turns(joint) ? std::remainder(x, kWholeTurn) : x;
   joint.lower = std::min(0.0, joint.lower - x), joint.upper = std::max(0.0, joint.upper - x);
 }
@@ -69,10 +88,23 @@ void shift(Motor& motor, const Joint& joint, double t, double x) {
 
 }  // namespace
 
+JointCoordinates::JointCoordinates(const Scene& scene)
+    : scene_(scene), series_(scene.joints.size()), values_(scene.joints.size(), 0.0) {
+  for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+    const Joint& joint = scene.joints[k];
+    if (const auto* whole = std::get_if<CompoundJoint>(&joint.type))
+      series_[k].emplace(whole->axes, scene.pose(joint.a), scene.pose(joint.b));
+  }
+}
+
 void JointCoordinates::follow(const std::vector<BodyState>& bodies) {
+  AxisSeries::Rows rows;  // of the last compound joint, whose axes stand behind it
   for (std::size_t k = 0; k < scene_.joints.size(); ++k) {
-    const double x = coordinate_of(scene_, scene_.joints[k], bodies);
-    values_[k] = turns(scene_.joints[k]) ? values_[k] + std::remainder(x - values_[k], kWholeTurn) : x;
+    const Joint& joint = scene_.joints[k];
+    if (series_[k]) rows = series_[k]->at(end_of(scene_, bodies, joint.a), end_of(scene_, bodies, joint.b));
+    const auto* axis = std::get_if<CompoundAxis>(&joint.type);
+    const double x = axis ? rows.coordinates[axis->index].gap : coordinate_of(scene_, joint, bodies);
+    values_[k] = turns(joint) ? values_[k] + std::remainder(x - values_[k], kWholeTurn) : x;
   }
 }
 
@@ -85,9 +117,15 @@ Scene rebased(const Scene& scene, const std::vector<BodyState>& bodies, const st
     body.position = bodies[i].position, body.orientation = bodies[i].orientation.normalized();
     body.velocity = bodies[i].velocity, body.angular_velocity = bodies[i].angular_velocity;
   }
+  std::vector<SeriesAxis> axes;  // of the last compound joint, whose axes stand behind it
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
-    const Carrier a = carrier_of(scene, bodies, scene.joints[k].a), b = carrier_of(scene, bodies, scene.joints[k].b);
-    move_joint(out.joints[k], a, b, coordinates[k]);
+    const Joint& joint = scene.joints[k];
+    if (const auto* whole = std::get_if<CompoundJoint>(&joint.type))
+      axes = AxisSeries(whole->axes, scene.pose(joint.a), scene.pose(joint.b))
+                 .axes_at(end_of(scene, bodies, joint.a), end_of(scene, bodies, joint.b));
+    move_vectors(out.joints[k], carrier_of(scene, bodies, joint.a), carrier_of(scene, bodies, joint.b));
+    move_axes(out.joints[k], axes);
+    move_coordinate(out.joints[k], coordinates[k]);
   }
   for (Motor& motor : out.motors) {
     const auto k = static_cast<std::size_t>(motor.joint);

@@ -116,6 +116,9 @@ std::vector<ChangedRun> with_lanes(const RepeatedRun& run, std::string& why_not)
                       return run_again(run, run.name.settings);
                     }});
   }
+  if (count < kMostKernelTables)
+    runs.push_back(
+        {"others", {}, {}, fmt::format("this processor has {} of {} instruction sets", count, kMostKernelTables)});
   return runs;
 }
 

@@ -27,6 +27,7 @@ struct ChangedRun {
   std::string label;  // "threads 4", "seed 1"; or ""
   std::function<RecordedStates()> found;
   std::function<RecordedStates()> due = {};
+  std::string why_not = {};  // why it cannot run here, if `found` is empty
 };
 
 struct RepeatChange {

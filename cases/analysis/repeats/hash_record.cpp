@@ -12,7 +12,7 @@
 namespace rigor {
 namespace {
 
-constexpr int kRecordVersion = 1;
+constexpr int kRecordVersion = 2;    // 1: each hash was made in one chain
 constexpr std::size_t kDigits = 16;  // of a hash, hexadecimal
 
 // FNV-1a (Fowler, Noll, Vo).
@@ -38,7 +38,7 @@ HashRecord record_in(const std::string& line) {
   const Json row = parse_json_or_discard(line);
   if (row.is_discarded() || !row.is_object() || !row.contains("rigor_hashes")) throw InputError("");
   if (row.at("rigor_hashes") != kRecordVersion)
-    throw InputError(fmt::format(" of version {}", row.at("rigor_hashes").dump()));
+    throw InputError(fmt::format(" of version {}: found {}", kRecordVersion, row.at("rigor_hashes").dump()));
   try {
     return {row.at("case"),    row.at("scene"), row.at("run"),
             row.at("version"), row.at("dt"),    hashes_in(row.at("hashes").get<std::string>())};

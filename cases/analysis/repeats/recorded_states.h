@@ -10,7 +10,8 @@
 
 namespace rigor {
 
-// Thirteen columns of each body, step by step, the state at t = 0 first.
+// Thirteen columns of each body, step by step, the state at t = 0 first. After a blow-up each NaN is the same one: its
+// sign depends on the order of operands and says nothing.
 struct RecordedStates {
   static constexpr std::size_t kColumns = 13;
 

@@ -109,6 +109,13 @@ std::optional<BitDifference> difference_in(const Json& json) {
   return BitDifference{json.at(0), json.at(1), json.at(2), json.at(3), json.at(4), json.at(5), json.at(6), json.at(7)};
 }
 
+constexpr const char *kNewProcess = "new-process", *kCLibrary = "c-library";
+
+bool is_chosen(const RepeatOptions& options, const std::string& change) {
+  const auto& names = options.changes;
+  return names.empty() || std::find(names.begin(), names.end(), change) != names.end();
+}
+
 class Repeater {
  public:
   Repeater(const EngineTable& engines, const RepeatedRun& run, const RecordedStates& base, const RepeatOptions& options)
@@ -118,11 +125,12 @@ class Repeater {
     std::vector<Job> jobs;
     std::vector<std::size_t> first;
     for (const RepeatChange& change : repeat_changes()) {
+      if (!is_chosen(options_, change.name)) continue;
       std::string why;
       const std::vector<ChangedRun> runs = change.runs(run_, why);
       first.push_back(outcomes_.size());
       if (runs.empty()) add(change, "", why);
-      for (const ChangedRun& one : runs) add(change, one.label, "no answer");
+      for (const ChangedRun& one : runs) add(change, one.label, one.found ? "no answer" : one.why_not);
       if (!runs.empty()) jobs.push_back(job_of(runs));
       if (runs.empty()) first.pop_back();
     }
@@ -161,6 +169,7 @@ class Repeater {
   Job job_of(const std::vector<ChangedRun>& runs) const {
     return {[this, runs](const Channel& channel) {
               for (std::size_t n = 0; n < runs.size(); ++n) {
+                if (!runs[n].found) continue;
                 const RecordedStates found = runs[n].found();
                 const auto difference = first_difference(runs[n].due ? runs[n].due() : base_, found);
                 channel.send(Json{{"run", n}, {"difference", json_of_difference(difference)}}.dump());
@@ -185,20 +194,39 @@ class Repeater {
 };
 
 // In a new process, of which only the hashes are known.
-RepeatOutcome in_new_process(const std::vector<std::uint64_t>& due, const HashesElsewhere& elsewhere) {
+RepeatOutcome in_new_process(const std::string& change, const std::vector<std::uint64_t>& due,
+                             const HashesElsewhere& elsewhere, const std::string& environment = "") {
   RepeatOutcome outcome;
-  outcome.change = "new-process";
+  outcome.change = change;
   if (!elsewhere) {
     outcome.why = "no program is there to start";
     return outcome;
   }
-  const std::vector<std::uint64_t> found = elsewhere();
+  const std::vector<std::uint64_t> found = elsewhere(environment);
   outcome.is_run = true;
   const auto at = std::mismatch(due.begin(), due.end(), found.begin(), found.end());
   if (at.first != due.end() || at.second != found.end()) {
     outcome.difference = BitDifference{};
     outcome.difference->step = at.first - due.begin(), outcome.difference->column = -1;
   }
+  return outcome;
+}
+
+// glibc chooses its sine, exponential and the like by the processor. This variable makes it choose as on one without
+// AVX2 and FMA; other code of the process is not affected.
+RepeatOutcome with_older_c_library(const std::vector<std::uint64_t>& due, const HashesElsewhere& elsewhere) {
+  RepeatOutcome outcome;
+  outcome.change = kCLibrary;
+#if defined(__GLIBC__) && defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    outcome =
+        in_new_process(kCLibrary, due, elsewhere, "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX");
+  else
+    outcome.why = "this processor has neither AVX2 nor FMA";
+#else
+  outcome.why = "only glibc on x86-64 can be told to use an older processor's instructions";
+#endif
+  outcome.must_hold = false;
   return outcome;
 }
 
@@ -217,6 +245,13 @@ void compare_with_rounding(RepeatReport& report, double size) {
 }
 
 }  // namespace
+
+std::vector<std::string> change_names() {
+  std::vector<std::string> names;
+  for (const RepeatChange& change : repeat_changes()) names.push_back(change.name);
+  names.insert(names.begin() + 1, kNewProcess), names.emplace_back(kCLibrary);
+  return names;
+}
 
 bool RepeatReport::repeats() const {
   return std::none_of(outcomes.begin(), outcomes.end(), [](const RepeatOutcome& one) { return one.breaks(); });
@@ -254,7 +289,12 @@ RepeatReport repeat(const EngineTable& engines, const Case& definition, const Ru
                              report.steps,
                              saves_state(engines, run, definition.scene, options.limit)};
   report.outcomes = Repeater(engines, repeated, base, options).all();
-  report.outcomes.insert(report.outcomes.begin() + 1, in_new_process(report.hashes, options.elsewhere));
+  if (is_chosen(options, kNewProcess)) {
+    const auto first = report.outcomes.begin();
+    const bool stands_behind_one = !report.outcomes.empty() && first->change == repeat_changes().front().name;
+    report.outcomes.insert(first + stands_behind_one, in_new_process(kNewProcess, report.hashes, options.elsewhere));
+  }
+  if (is_chosen(options, kCLibrary)) report.outcomes.push_back(with_older_c_library(report.hashes, options.elsewhere));
   const bool some_differ = std::any_of(report.outcomes.begin(), report.outcomes.end(),
                                        [](const RepeatOutcome& one) { return one.difference.has_value(); });
   if (!some_differ) return report;

@@ -38,15 +38,20 @@ struct RepeatReport {
   bool repeats() const;
 };
 
-// Runs the case in another process and returns its hashes; null where no program can be started.
-using HashesElsewhere = std::function<std::vector<std::uint64_t>()>;
+// Runs the case in another process and returns its hashes; null where no program can be started. `environment`: a
+// variable of that process as "NAME=VALUE"; or "".
+using HashesElsewhere = std::function<std::vector<std::uint64_t>(const std::string& environment)>;
 
 struct RepeatOptions {
   int jobs = 1;
   double limit = 120;  // s of CPU time for a run
   HashesElsewhere elsewhere = {};
   std::function<void(std::size_t done, std::size_t all)> on_changes = {};  // after each change that was tried
+  std::vector<std::string> changes = {};                                   // of change_names(); none: all
 };
+
+// In the order in which they are reported.
+std::vector<std::string> change_names();
 
 // The states of the run, from a process of its own. Throws InputError where the engine cannot run the scene.
 RecordedStates base_states(const EngineTable& engines, const Case& definition, const RunName& run, const StepSize& dt,

@@ -122,7 +122,8 @@ class Repeats(Printed):
     def _told(change: typing.Mapping[str, typing.Any]) -> str:
         if change["status"] != "differs":
             return change["status"] + (f": {change['why']}" if change["why"] else "")
-        text = f"{'DIFFERS' if change['must_hold'] else 'order-dependent'} from step {change['step']} on"
+        depends = "order-dependent" if "body" in change else "processor-dependent"  # of another process only hashes are known
+        text = f"{'DIFFERS' if change['must_hold'] else depends} from step {change['step']} on"
         if "body" not in change:
             return text
         size, position, angle = ("inf" if change[key] is None else f"{change[key]:.3g}" for key in ("difference", "position", "orientation"))

@@ -73,14 +73,20 @@ std::string spread_line(const Divergence& found) {
 std::string entering_line(const Divergence& found) {
   const Injections& injections = found.injections;
   if (injections.steps.empty()) return titled_line("enters", "not measured: " + injections.why);
-  const std::string growth = fmt::format("a nudge grows {:.3g} times until then (exponent {:.2g}/s)",
-                                         injections.growth_factor, injections.growth);
+  constexpr double kNoGrowth = 1e-6;  // that of roundings
+  const bool grows = std::abs(injections.growth_factor - 1) > kNoGrowth;
+  const std::string growth = grows ? fmt::format("a nudge grows {:.3g} times until then (exponent {:.2g}/s)",
+                                                 injections.growth_factor, injections.growth)
+                                   : std::string("a nudge does not grow until then");
+  constexpr double kMore = 1.5;  // beyond what ends of a step may add
+  const char* taken =
+      injections.injected < 0 || injections.injected > kMore ? ", so contacts and joints take differences back" : "";
   return titled_line(
-      "enters",
-      fmt::format("free motion of all one-step differences makes {:.3g} of the gap; {}{}", injections.injected, growth,
-                  injections.has_all_steps
-                      ? ""
-                      : fmt::format("; {} of {} steps looked at", injections.steps.size(), found.parting->sample)));
+      "enters", fmt::format("free motion of all one-step differences makes {:.3g} of the gap{}; {}{}",
+                            injections.injected, taken, growth,
+                            injections.has_all_steps ? ""
+                                                     : fmt::format("; {} of {} steps looked at",
+                                                                   injections.steps.size(), found.parting->sample)));
 }
 
 // The largest hidden share of one run.
@@ -113,13 +119,22 @@ std::string reason_text(const Cause& cause) {
                      cause.detail.empty() ? "" : " (" + cause.detail + ")", 100 * cause.share, order_text(cause));
 }
 
+// "'foot' gains", "'foot' and 3 others gain".
+std::string gaining(const Divergence& found, const Injection& at) {
+  const std::string& name = found.names[static_cast<std::size_t>(at.body)];
+  if (at.alike == 0) return fmt::format("'{}' gains", name);
+  return fmt::format("'{}' and {} other{} gain", name, at.alike, at.alike == 1 ? "" : "s");
+}
+
 // One line for all instants with the same reason.
 std::string cause_lines(const Divergence& found) {
   std::string text;
   for (std::size_t n = 0; n < found.causes.size(); ++n) {
     const Cause& cause = found.causes[n];
     const auto is_like = [&](const Cause& other) {
-      return other.what == cause.what && other.at.body == cause.at.body && other.why == cause.why &&
+      const bool is_of_body =
+          other.at.body == cause.at.body || (other.at.alike > 0 && other.at.alike == cause.at.alike);
+      return other.what == cause.what && is_of_body && other.why == cause.why &&
              other.is_rounding == cause.is_rounding && other.falls_with_dt() == cause.falls_with_dt();
     };
     const auto here = found.causes.begin() + static_cast<long>(n);
@@ -128,10 +143,9 @@ std::string cause_lines(const Divergence& found) {
     for (auto other = here + 1; other != found.causes.end(); ++other) {
       if (is_like(*other)) also.push_back(fmt::format("{:.4g} s", other->at.time));
     }
-    text += titled_line(
-        "why", fmt::format("at {:.4g} s, '{}' gains {:.2g} of the bound in one step: {}{}", cause.at.time,
-                           found.names[static_cast<std::size_t>(cause.at.body)], cause.at.share, reason_text(cause),
-                           also.empty() ? "" : fmt::format("; also at {}", fmt::join(also, ", "))));
+    text += titled_line("why", fmt::format("at {:.4g} s, {} {:.2g} of the bound in one step: {}{}", cause.at.time,
+                                           gaining(found, cause.at), cause.at.share, reason_text(cause),
+                                           also.empty() ? "" : fmt::format("; also at {}", fmt::join(also, ", "))));
   }
   return text;
 }
@@ -162,10 +176,11 @@ std::string setting_line(const Divergence& found) {
   const SwapSearch& search = found.swaps;
   if (!search.has_differing_setting) return titled_line("setting", "none differs");
   if (search.best) {
-    const double percent = 100 * search.best->closes;
-    return titled_line("setting",
-                       fmt::format("{} closes {:.3g} % of the gap, {:.3g} % at half the step",
-                                   swap_text(found, *search.best), percent, 100 * search.best->closes_at_half_step));
+    const std::string at_half = search.best->is_checked
+                                    ? fmt::format("{:.3g} % at half the step", 100 * search.best->closes_at_half_step)
+                                    : std::string("and at half the step there is no gap");
+    return titled_line("setting", fmt::format("{} closes {:.3g} % of the gap, {}", swap_text(found, *search.best),
+                                              100 * search.best->closes, at_half));
   }
   if (search.tried.empty()) return titled_line("setting", "none that can be changed runs here");
   const TriedSwap& most = search.tried.front();

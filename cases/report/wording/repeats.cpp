@@ -9,8 +9,10 @@ namespace {
 
 std::string difference_text(const RepeatOutcome& outcome) {
   const BitDifference& difference = *outcome.difference;
+  // Of another process only hashes are known.
+  if (difference.column < 0)
+    return fmt::format("{} from step {} on", outcome.must_hold ? "DIFFERS" : "processor-dependent", difference.step);
   const std::string head = outcome.must_hold ? "DIFFERS" : "order-dependent";
-  if (difference.column < 0) return fmt::format("{} from step {} on", head, difference.step);
   return fmt::format("{} from step {} on: {} of '{}' by {:.3g}; at the end {:.3g} m and {:.3g} rad, {}", head,
                      difference.step, kColumnNames[static_cast<std::size_t>(difference.column)], outcome.body,
                      difference.there, difference.position, difference.angle,

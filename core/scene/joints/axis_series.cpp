@@ -216,6 +216,17 @@ AxisSeries::Rows AxisSeries::at(const SeriesEnd& a, const SeriesEnd& b) const {
   return out;
 }
 
+std::vector<SeriesAxis> AxisSeries::axes_at(const SeriesEnd& a, const SeriesEnd& b) const {
+  double sine = 1;
+  const Chain chain = chain_at(a, b, sine);
+  std::vector<SeriesAxis> axes = axes_;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    axes[i].axis = chain.places[i].direction.normalized();
+    if (axes[i].turns) axes[i].anchor = chain.places[i].anchor;
+  }
+  return axes;
+}
+
 std::string why_no_series(const std::vector<SeriesAxis>& axes) {
   constexpr double kParallel = 1e-3;  // sine; below it three digits of the coordinates and more are lost
   for (const bool turns : {true, false}) {

@@ -42,6 +42,8 @@ class AxisSeries {
     double sine = 1;  // of the middle of three hinges: 0 where the first and the last are parallel
   };
   Rows at(const SeriesEnd& a, const SeriesEnd& b) const;
+  // The axes at a pose, in W: the first as a carries it, each other one as the axes before it do.
+  std::vector<SeriesAxis> axes_at(const SeriesEnd& a, const SeriesEnd& b) const;
   int locked() const { return 6 - static_cast<int>(axes_.size()); }
 
  private:

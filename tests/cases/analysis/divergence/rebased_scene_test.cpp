@@ -64,6 +64,41 @@ Scene driven_cart() {
   return scene;
 }
 
+// The joint and behind it a row for each axis, named "axis-1" and so on.
+void add_compound(Scene& scene, int a, int b, const std::vector<SeriesAxis>& axes) {
+  scene.joints.push_back({a, b, CompoundJoint{axes}});
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    scene.joints.push_back({a, b, CompoundAxis{axes, i}});
+    scene.joints.back().name = "axis-" + std::to_string(i + 1);
+  }
+}
+
+// A torso on two sliders and a hinge, as the root of a planar walker, and a leg on a hip of three hinges whose axes
+// meet at odd angles; springs, limits, a servo and a torque act on single axes.
+Scene jointed_walker() {
+  Scene scene;
+  scene.gravity = {0, 0, -10};
+  scene.bodies = {body("torso", 4, {0.1, 0.12, 0.05}, {0, 0, 1}), body("leg", 1, {0.05, 0.06, 0.01}, {0.1, 0.2, 0.5})};
+  add_compound(scene, kWorld, 0,
+               {{false, Vec3::Zero(), Vec3::UnitX()},
+                {false, Vec3::Zero(), Vec3::UnitZ()},
+                {true, {0.2, 0, 1.1}, Vec3::UnitY()}});
+  add_compound(scene, 0, 1,
+               {{true, {0.05, 0.1, 0.8}, Vec3::UnitX()},
+                {true, {0.1, 0.1, 0.8}, Vec3(0.2, 0, 1).normalized()},
+                {true, {0.1, 0.15, 0.75}, Vec3::UnitY()}});
+  scene.joints[2].stiffness = 300, scene.joints[2].rest = -0.1;
+  scene.joints[3].stiffness = 20, scene.joints[3].rest = 0.4;
+  scene.joints[5].stiffness = 6, scene.joints[5].rest = 0.3;
+  scene.joints[7].stiffness = 9, scene.joints[7].rest = -0.5, scene.joints[7].damping = 0.05;
+  scene.joints[7].armature = 0.02;
+  Motor push, hold;
+  push.joint = 1, push.efforts = TimeTable{{0, 0.5, 1}, {0, 20, -10}, true};
+  hold.joint = 6, hold.servo = Servo{TimeTable{{0, 1}, {0, 0.6}, true}, 8, 0.3};
+  scene.motors = {push, hold};
+  return scene;
+}
+
 }  // namespace
 
 // Anchors that close again and renormalised orientations leave roundings, which a second amplifies little.
@@ -73,6 +108,46 @@ BOOST_AUTO_TEST_CASE(joints_springs_drives_and_forces_go_on_from_any_state) {
     BOOST_TEST(off.position < 1e-9, "from step " << middle);
     BOOST_TEST(off.angle < 1e-9, "from step " << middle);
   }
+}
+
+// The hip's angles are coordinates of one rotation: that of an axis is not the angle between the bodies about it.
+BOOST_AUTO_TEST_CASE(axes_in_series_go_on_from_any_state) {
+  for (const long middle : {1L, 300L, 700L, 1100L}) {
+    const PoseDistance off = continued(jointed_walker(), 1200, middle);
+    BOOST_TEST(off.position < 1e-9, "from step " << middle << ": " << off.position);
+    BOOST_TEST(off.angle < 1e-9, "from step " << middle << ": " << off.angle);
+  }
+}
+
+// Limits of a middle axis: after 1.2 rad of its 1.5 the rest is left, though both neighbours have turned, too.
+BOOST_AUTO_TEST_CASE(a_limit_of_an_axis_in_series_is_what_is_left_of_it) {
+  Scene scene;
+  scene.bodies = {body("top", 1, {0.1, 0.1, 0.1})};
+  add_compound(scene, kWorld, 0,
+               {{true, Vec3::Zero(), Vec3::UnitZ()},
+                {true, Vec3::Zero(), Vec3::UnitX()},
+                {true, Vec3::Zero(), Vec3::UnitZ() + 0.5 * Vec3::UnitX().cross(Vec3::UnitZ())}});
+  for (std::size_t k : {0, 1, 2, 3}) {
+    auto* axis = std::get_if<CompoundAxis>(&scene.joints[k].type);
+    for (SeriesAxis& one : axis ? axis->axes : std::get<CompoundJoint>(scene.joints[k].type).axes) one.axis.normalize();
+  }
+  scene.joints[2].lower = -0.2, scene.joints[2].upper = 1.5;
+  const Vec3 last = std::get<CompoundAxis>(scene.joints[3].type).own().axis;
+  const auto state_at = [&](double share) {
+    const Quat turn =
+        rotation_by(Vec3(0, 0, 4 * share)) * rotation_by(Vec3(1.2 * share, 0, 0)) * rotation_by((-0.7 * share) * last);
+    return std::vector<BodyState>{{Vec3::Zero(), turn, Vec3::Zero(), Vec3::Zero()}};
+  };
+  JointCoordinates coordinates(scene);
+  for (int n = 0; n <= 20; ++n) coordinates.follow(state_at(0.05 * n));
+  BOOST_TEST(coordinates.values()[1] == 4, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(coordinates.values()[2] == 1.2, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(coordinates.values()[3] == -0.7, boost::test_tools::tolerance(1e-12));
+  const Scene rest = rebased(scene, state_at(1), coordinates.values(), 1);
+  BOOST_TEST(rest.joints[2].upper == 0.3, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(rest.joints[2].lower == -1.4, boost::test_tools::tolerance(1e-12));
+  const Vec3 middle = std::get<CompoundAxis>(rest.joints[2].type).own().axis;
+  BOOST_TEST((middle - Vec3(std::cos(4.0), std::sin(4.0), 0)).norm() < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(springs_of_free_bodies_go_on) {

@@ -95,7 +95,8 @@ export const falls = (cause) =>
 export function settingLine(found) {
   if (found.setting) {
     const { closes, closes_at_half_step: half } = found.setting;
-    return `${swapText(found, found.setting)} closes ${percent(closes, 3)} of the gap, ${percent(half, 3)} at half the step.`;
+    const atHalf = isNumber(half) ? `${percent(half, 3)} at half the step` : "and at half the step there is no gap";
+    return `${swapText(found, found.setting)} closes ${percent(closes, 3)} of the gap, ${atHalf}.`;
   }
   if (!found.differing_settings) return "No setting differs between the runs.";
   if (!found.swaps.length) return "No setting that differs can be changed here.";
