@@ -27,7 +27,7 @@
 #include "core/dynamics/contact/event/event_forces.h"
 #include "core/dynamics/contact/event/event_options.h"
 #include "core/dynamics/contact/event/persistent/persistent_contact.h"
-#include "core/dynamics/contact/event/rest.h"
+#include "core/dynamics/contact/event/persistent/rest.h"
 #include "core/engine/option_values.h"
 #include "core/engine/state_archive.h"
 

@@ -223,8 +223,11 @@ class ImpulseStepper : public ContactStepper {
                                             displacements_.data());
   }
 
-  // A body that is pushed out of a deep overlap must not keep the residual push of one pass.
+  // The bias of an impact may be as large as its speed. Without it, the corners must again agree. A body that is pushed
+  // out of a deep overlap must not keep the residual push of one pass.
   void relax(std::size_t thread) {
+    if (are_impulses_known_)
+      impacts_.solve(contact_kernels().sweep_without_bias, solver_bodies(), parameters_, thread);
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().relax(groups, count, solver_bodies());
     });

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/event/rest.h"
+#include "core/dynamics/contact/event/persistent/rest.h"
 
 #include <algorithm>
 
