@@ -89,17 +89,38 @@ class RepeatCommand : public Command {
       throw InputError("rigor repeat: --change belongs to the table, which --record and --against do not make");
   }
 
-  // Does the work for each case. Of several cases those are left out that the engine cannot run, and named on stderr.
-  static void for_each(const std::vector<Case>& cases, const std::function<void(const Case&)>& work) {
-    std::size_t left_out = 0;
+  // Why the engine cannot run a case; empty if it can.
+  using Lacks = std::function<std::string(const Case&)>;
+  static Lacks what_lacks(const RunName& name, const EngineTable& engines) {
+    return [&](const Case& definition) {
+      return why_unsupported(engines.info_of(name.engine), name.settings, definition.scene,
+                             definition.dt.front().seconds);
+    };
+  }
+
+  // Does the work for each case. Of several cases, those that the engine lacks something for are left out, and one that
+  // fails does not stop the others. All of them are named on stderr. The exit code is that of the failures.
+  static int for_each(const std::vector<Case>& cases, const Lacks& lacks,
+                      const std::function<void(const Case&)>& work) {
+    if (cases.size() == 1) return work(cases.front()), kGood;
+    int code = kGood;
+    std::size_t tried = 0;
     for (const Case& definition : cases) {
+      if (const std::string why = lacks(definition); !why.empty()) {
+        say(fmt::format("leaves out {}: unsupported: {}", definition.id, why));
+        continue;
+      }
+      ++tried;
       try {
         work(definition);
       } catch (const InputError& error) {
-        if (++left_out == cases.size()) throw;
-        say(fmt::format("leaves out {}: {}", definition.id, error.what()));
+        say(fmt::format("{}: {}", definition.id, error.what()));
+        code = kBadInput;
       }
     }
+    if (tried == 0)
+      throw InputError(fmt::format("rigor repeat: the engine can run none of the {} cases", cases.size()));
+    return code;
   }
 
   HashRecord recorded_run(const Case& definition, const RunName& name, const EngineTable& engines) const {
@@ -109,20 +130,27 @@ class RepeatCommand : public Command {
 
   int record(const std::vector<Case>& cases, const RunName& name, const EngineTable& engines) const {
     std::string text;
-    for_each(cases, [&](const Case& definition) { text += line_of(recorded_run(definition, name, engines)); });
+    const int code = for_each(cases, what_lacks(name, engines), [&](const Case& definition) {
+      text += line_of(recorded_run(definition, name, engines));
+    });
     std::ofstream file(record_, std::ios::binary);
     file << text << std::flush;
     if (!file) throw InputError(fmt::format("--record: cannot write '{}'", record_));
-    return kGood;
+    return code;
   }
 
   int compare(const std::vector<Case>& cases, const RunName& name, const EngineTable& engines) const {
     const std::vector<HashRecord> records = read_hash_records(against_);
+    // What ran when the hashes were made must run here, too.
+    const Lacks lacks = [&, engine_lacks = what_lacks(name, engines)](const Case& definition) {
+      const bool has_run = std::any_of(records.begin(), records.end(),
+                                       [&](const HashRecord& one) { return one.case_id == definition.id; });
+      return has_run ? std::string() : engine_lacks(definition);
+    };
     int code = kGood;
     std::string text;
-    std::vector<HashRecord> runs;
-    for_each(cases, [&](const Case& definition) { runs.push_back(recorded_run(definition, name, engines)); });
-    for (const HashRecord& own : runs) {
+    const int failed = for_each(cases, lacks, [&](const Case& definition) {
+      const HashRecord own = recorded_run(definition, name, engines);
       const std::vector<std::uint64_t>& due = matching_record(records, own, against_).hashes;
       const auto at = std::mismatch(due.begin(), due.end(), own.hashes.begin()).first;
       const bool is_same = at == due.end();
@@ -130,15 +158,15 @@ class RepeatCommand : public Command {
                           is_same ? fmt::format("same bits in {} steps", due.size() - 1)
                                   : fmt::format("DIFFERS from step {} on", at - due.begin()));
       if (!is_same) code = kGateFailed;
-    }
+    });
     print_table(text);
-    return code;
+    return std::max(code, failed);
   }
 
   int make_table(const std::vector<Case>& cases, const RunName& name, const EngineTable& engines) const {
     Json all = Json::array();
     int code = kGood;
-    for_each(cases, [&](const Case& definition) {
+    const int failed = for_each(cases, what_lacks(name, engines), [&](const Case& definition) {
       const RepeatReport report = watched_repeat(engines, definition, name);
       if (!report.repeats()) code = kGateFailed;
       if (json_.is_on) {
@@ -148,7 +176,7 @@ class RepeatCommand : public Command {
       }
     });
     if (json_.is_on) print(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    return code;
+    return std::max(code, failed);
   }
 
   RepeatReport watched_repeat(const EngineTable& engines, const Case& definition, const RunName& name) const {
