@@ -116,6 +116,29 @@ BOOST_AUTO_TEST_CASE(each_contact_method_continues_with_the_same_bits) {
   for (const char* method : {"course", "event", "impulse", "soft"}) BOOST_TEST(checked[method] > 0, method);
 }
 
+// Bodies at rest keep their state, so only the reports show what a restored world has lost.
+BOOST_AUTO_TEST_CASE(bodies_at_rest_report_the_same_forces_after_they_are_restored) {
+  for (const char* method : {"event", "impulse"}) {
+    const auto world =
+        core_world(suite_scene("contact/lying-still"), std::string("core:velocity-verlet,contact=") + method);
+    ReportsContacts& reports = *world->capabilities().contacts;
+    reports.ask_for_contacts();
+    const auto sum = [&] {
+      Vec3 force = Vec3::Zero();
+      for (const ReportedContact& contact : reports.contacts()) force += contact.force;
+      return force;
+    };
+    const auto at_start = world->capabilities().state->save();
+    world->step(0.01);
+    const Vec3 due = sum();
+    BOOST_TEST(due.norm() > 0, method);
+    world->step(0.01);
+    world->capabilities().state->restore(*at_start);
+    world->step(0.01);
+    BOOST_TEST((sum() - due).norm() <= 1e-12 * due.norm(), method);
+  }
+}
+
 // The same world with the bodies where they are, as a save of their states alone would restore it.
 BOOST_AUTO_TEST_CASE(states_of_bodies_alone_are_not_enough) {
   struct Row {

@@ -105,7 +105,7 @@ class EventStepper : public ContactStepper {
     }
     note(persistent_contact_.take_projection_warning());
     forces_.end_step(dt);
-    if (is_at_rest_ && is_smooth_ && solver_warning_.empty())
+    if (is_smooth_ && is_at_rest_ && solver_warning_.empty())
       rest_.end_step(state, t, persistent_contact_.next_switch(t, loads_.next_switch(t, kInfinity)));
   }
 
@@ -117,6 +117,7 @@ class EventStepper : public ContactStepper {
     archive.resized(ties_);
     for (ContactTie& tie : ties_) archive(tie.time, tie.pairs);
     archive(contact_points_, persistent_contact_, crowded_);
+    rest_.forget();
   }
   bool was_smooth() const override { return is_smooth_; }
   long work() const override { return persistent_contact_.passes(); }
@@ -168,6 +169,7 @@ class EventStepper : public ContactStepper {
   }
 
   void step_without_contact(MutableBodyColumns state, double t, double dt) {
+    rest_.forget();
     persistent_contact_.select(state, {}, t, dt);
     start_ = BodyColumns(state);
     persistent_contact_.advance(start_.columns(), state, t, dt);
@@ -175,7 +177,6 @@ class EventStepper : public ContactStepper {
 
   // Impacts now, and what stays in contact until the next event.
   double take_part(MutableBodyColumns state) {
-    is_at_rest_ = false;
     pairs_ = contact_points_.candidates(state);
     touching_.clear();
     contact_points_.find(state, pairs_, ContactPoint::kClosed, touching_);
@@ -306,7 +307,7 @@ class EventStepper : public ContactStepper {
   }
 
   double take_crowded_step(MutableBodyColumns state, double longest) {
-    is_smooth_ = is_at_rest_ = false;
+    is_smooth_ = false;
     if (patience_ > 1 && longest > instant_) note("events crowd more than its patience allows");
     if (!crowded_from_ && longest > instant_) crowded_from_ = part_.t + part_.from;
     const double h = crowded_.take(state, part_.t + part_.from, part_.length(), longest);
@@ -391,7 +392,7 @@ class EventStepper : public ContactStepper {
   bool has_impact_ = false, follows_slip_ = false;  // the part at hand; and it ends where a slip limits its length
   int instants_ = 0;                                // skipped in this step
   bool is_smooth_ = true;
-  bool is_at_rest_ = false;  // in the last part
+  bool is_at_rest_ = false;  // in the last part, if that was no crowded step
   Rest rest_;
   BodyTable start_, end_, clear_;
   double reach_ = 0;           // s, from start_ to end_

@@ -10,9 +10,11 @@ class Rest {
  public:
   // Of a step from t to t + dt [s].
   bool goes_on(BodyColumns state, double t, double dt) const;
-  void begin_step(BodyColumns state) { state_ = state, until_ = -1; }
+  void begin_step(BodyColumns state) { state_ = state, forget(); }
   // Where a step from t ended at rest, with loads that stay until `until` [s].
   void end_step(BodyColumns state, double t, double until);
+  // Where the points of contact are no longer those of the last step.
+  void forget() { until_ = -1; }
 
  private:
   bool is_same(BodyColumns state) const;

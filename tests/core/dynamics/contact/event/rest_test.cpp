@@ -68,6 +68,13 @@ BOOST_AUTO_TEST_CASE(a_box_that_rests_reports_the_same_forces_at_each_step) {
   BOOST_TEST(sum().norm() < 1e-12 * kG);
 }
 
+BOOST_AUTO_TEST_CASE(a_step_without_length_does_not_take_the_forces_away) {
+  ContactRun run(at_wall(1e9), "event");
+  run.contact_reports().ask_for_contacts();
+  for (const double dt : {kDt, kDt, 0.0, kDt}) run.step(dt);
+  BOOST_TEST(!run.contact_reports().contacts().empty());
+}
+
 BOOST_AUTO_TEST_CASE(a_box_that_rests_is_moved_by_one_that_strikes_it) {
   Scene scene = at_wall(1e9);
   scene.bodies.push_back(solid("ball", Sphere{0.1}, {0.1, 0, -1}));
