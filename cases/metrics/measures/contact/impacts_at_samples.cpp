@@ -53,15 +53,13 @@ class ImpactsAtSample {
     if (dt_ * fastest <= touching_) return false;
     collide(*scene_.bodies[i].shape, pose_of(i), *scene_.bodies[j].shape, pose_of(j), points_);
     return std::any_of(points_.begin(), points_.end(), [&](const ManifoldPoint& point) {
-      const double speed = point.normal.dot(velocity_at(i, point.point) - velocity_at(j, point.point));
+      const double speed =
+          point.normal.dot(velocity_at(bodies_, a, point.point) - velocity_at(bodies_, b, point.point));
       return std::abs(point.gap) <= touching_ && dt_ * std::abs(speed) > touching_;
     });
   }
 
   Pose pose_of(std::size_t i) const { return {bodies_.position(i), matrix_of(bodies_.orientation(i).normalized())}; }
-  Vec3 velocity_at(std::size_t i, const Vec3& point) const {
-    return bodies_.velocity(i) + bodies_.angular_velocity(i).cross(point - bodies_.position(i));
-  }
 
   const Scene& scene_;
   BodyColumns bodies_;

@@ -14,7 +14,7 @@
 namespace rigor {
 namespace {
 
-// Of the smallest body's half width: a point may carry that is within it of the pair's nearest.
+// A point may carry that is farther than the pair's nearest by at most this share of the smallest body's half width.
 constexpr double kMayCarry = 1e-3;
 
 Pose middle_of(BodyColumns before, BodyColumns after, int body, double dt) {
@@ -47,13 +47,9 @@ struct Approach {
 };
 
 Approach approach_of(const Manifold& points, BodyColumns bodies, int a, int b, double dt) {
-  const auto velocity = [&](int body, const Vec3& at) {
-    const auto i = static_cast<std::size_t>(body);
-    return Vec3(bodies.velocity(i) + bodies.angular_velocity(i).cross(at - bodies.position(i)));
-  };
   Approach found;
   for (const ManifoldPoint& point : points) {
-    const double speed = -point.normal.dot(velocity(a, point.point) - velocity(b, point.point));
+    const double speed = -point.normal.dot(velocity_at(bodies, a, point.point) - velocity_at(bodies, b, point.point));
     found.speed = std::max(found.speed, speed);
     found.gap_after = std::min(found.gap_after, point.gap - dt * std::max(speed, 0.0));
   }

@@ -17,4 +17,9 @@ double touching_gap(const Scene& scene) {
   return kOfHalfWidth * smallest_half_width(scene);
 }
 
+Vec3 velocity_at(BodyColumns bodies, int body, const Vec3& place) {
+  const auto i = static_cast<std::size_t>(body);
+  return bodies.velocity(i) + bodies.angular_velocity(i).cross(place - bodies.position(i));
+}
+
 }  // namespace rigor

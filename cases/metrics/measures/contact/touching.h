@@ -1,6 +1,7 @@
-// When two bodies of a truth touch.
+// When two bodies of a truth touch, and how they move there.
 #pragma once
 
+#include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
 namespace rigor {
@@ -10,5 +11,8 @@ double smallest_half_width(const Scene& scene);
 
 // m: a smaller gap is closed. It is beyond the rounding of a truth's positions, and below any gap that a scene means.
 double touching_gap(const Scene& scene);
+
+// m/s, of the body's point at `place`; both in W.
+Vec3 velocity_at(BodyColumns bodies, int body, const Vec3& place);
 
 }  // namespace rigor

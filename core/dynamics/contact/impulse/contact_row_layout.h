@@ -33,8 +33,7 @@ class ContactRowLayout {
   std::size_t idle_body() const { return static_cast<std::size_t>(idle_); }
   std::size_t records() const { return idle_body() + 1 + threads_; }
 
-  // Lays these constraints out, which are sorted by pair. Rows that one pass does not bring to rest are those of deep
-  // overlaps, or all of them if the impulses are not known from a step before.
+  // Lays these constraints out, which are sorted by pair. `are_impulses_known`: from a sub-step before.
   void assign(const std::vector<ContactConstraint>& constraints, bool are_impulses_known);
   // Writes the rows of a thread's groups, impulses times `impulse_scale`, with their effective masses.
   void fill(const std::vector<ContactConstraint>& constraints, double impulse_scale, const SolverBodies& bodies,
@@ -53,7 +52,8 @@ class ContactRowLayout {
   Share share(std::size_t colour, std::size_t thread) const;
   const std::vector<RowGroup>& groups() const { return groups_; }
   bool has_restitution() const { return has_restitution_; }
-  // In the order of groups.
+  // Those that one pass does not bring to rest, in the order of groups: deep overlaps, or all rows without known
+  // impulses.
   const std::vector<RowPlace>& rows_of_many_passes() const { return rows_of_many_passes_; }
 
  private:

@@ -6,9 +6,10 @@
 //   p_t <- onto the disc of radius mu p_n (p_t - u_t / k_t),
 // where the bias lets a gap close within h, or pushes an overlap out like a damped spring of contact_hertz. The
 // positions are integrated with these velocities. Then the constraints are relaxed, which is the same without bias, so
-// that pushed bodies keep no speed. Where bodies bounce, fast contacts have had their impacts before, each at its own
-// instant of the sub-step (rebounds.h). kernels/contact_row_kernels-inl.h has the row arithmetic, several rows at a
-// time.
+// that pushed bodies keep no speed. The first sub-step of a run has no impulses to start from. With up to
+// 1000 contacts it repeats both passes until they agree, at most 300 times. Fast contacts that bounce have their
+// impacts before, each at its own instant of the sub-step (rebounds.h). The row arithmetic, several rows at a time, is
+// in kernels/contact_row_kernels-inl.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -199,11 +200,8 @@ class ImpulseStepper : public ContactStepper {
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
     });
-    if (are_impulses_known_)
-      impacts_.solve(contact_kernels().sweep_with_bias, solver_bodies(), parameters_, thread);
-    else
-      many_passes_.solve(contact_kernels().sweep_with_bias, solver_bodies(), sub_steps_.until_at_rest(parameters_),
-                         thread);
+    RowSweeps& to_agree = are_impulses_known_ ? impacts_ : many_passes_;
+    to_agree.solve(contact_kernels().sweep_with_bias, solver_bodies(), of_sweeps(), thread);
     by_one_thread(thread, [&] { turning_.solve(solver_bodies()); });
   }
 
@@ -226,15 +224,17 @@ class ImpulseStepper : public ContactStepper {
   // The bias of an impact may be as large as its speed. Without it, the corners must again agree. A body that is pushed
   // out of a deep overlap must not keep the residual push of one pass.
   void relax(std::size_t thread) {
-    if (are_impulses_known_)
-      impacts_.solve(contact_kernels().sweep_without_bias, solver_bodies(), parameters_, thread);
+    if (are_impulses_known_) impacts_.solve(contact_kernels().sweep_without_bias, solver_bodies(), parameters_, thread);
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
       contact_kernels().relax(groups, count, solver_bodies());
     });
-    many_passes_.solve(contact_kernels().sweep_without_bias, solver_bodies(),
-                       are_impulses_known_ ? parameters_ : sub_steps_.until_at_rest(parameters_), thread);
+    many_passes_.solve(contact_kernels().sweep_without_bias, solver_bodies(), of_sweeps(), thread);
     // Some integrators leave the normal impulse of a body at rest to this pass.
     by_one_thread(thread, [&] { turning_.solve(solver_bodies()); });
+  }
+
+  SolverParameters of_sweeps() const {
+    return are_impulses_known_ ? parameters_ : SubSteps::until_at_rest(parameters_);
   }
 
   static std::ptrdiff_t at_record(std::size_t body) { return static_cast<std::ptrdiff_t>(kRecord * body); }

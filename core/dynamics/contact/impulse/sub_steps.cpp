@@ -15,9 +15,10 @@ namespace {
 // In units of the scene's time sqrt(L/g), so that equal scenes in other units get equal sub-steps. A stack of n bodies
 // sags by n g h²/2.5 at its foot: with kLongestSubStep, by 2e-4 n of a body's half-length.
 constexpr double kLongestSubStep = 0.023;
-// Bodies that weigh many times as much as others need shorter ones: of 1 m boxes in a pyramid on sub-steps of 1/480 s,
-// a top of thirty or a hundred times the others' mass moves them by 5 mm at most, one of three hundred by up to 10 cm.
-// At 1/960 s the order of the contacts decided whether it moves them by 3 mm or 12 cm, at 1/1440 s it is 2 mm.
+// Bodies that weigh many times as much as others need shorter ones. A pyramid of 1 m boxes was tried with a heavy top,
+// on sub-steps of 1/480 s. With thirty or a hundred times the others' mass, it moves them by 5 mm at most. With three
+// hundred times it moves them by up to 10 cm. At 1/960 s the order of the contacts decided whether it moves them by 3
+// mm or 12 cm, at 1/1440 s it is 2 mm.
 constexpr double kShorterSubStep = 0.0031, kUnevenMassRatio = 30;
 constexpr int kFewestSubSteps = 4;
 // Without gravity nothing but impacts sets a time. The count then bounds the time from an impact to the end of its
@@ -39,7 +40,7 @@ constexpr double kTouching = 1e-10;
 constexpr double kSubStepsOfFall = 4;
 constexpr int kMaxImpactSweeps = 30;       // over the points of an impact, of which few bodies have more than four
 constexpr double kImpactTolerance = 1e-3;  // of the restitution threshold
-// Of the tolerance of impacts, which makes it 4e-6 of the speed that gravity gives within a sub-step. A stack of n
+// As a share of the tolerance of impacts: 4e-6 of the speed that gravity gives within a sub-step. A stack of n
 // bodies needs some 4 n² sweeps for each digit.
 constexpr double kShareAtRest = 1e-3;
 constexpr int kMaxSweepsAtStart = 300;
