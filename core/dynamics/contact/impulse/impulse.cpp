@@ -18,6 +18,7 @@
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
 #include "core/dynamics/contact/impulse/jointed_impulse.h"
 #include "core/dynamics/contact/impulse/manifolds.h"
+#include "core/dynamics/contact/impulse/mean_motion.h"
 #include "core/dynamics/contact/impulse/rebounds/impact_search.h"
 #include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 #include "core/dynamics/contact/impulse/step_impulses.h"
@@ -60,6 +61,7 @@ class ImpulseStepper : public ContactStepper {
         many_passes_(rows_, *threads_),
         turning_(scene),
         rebounds_(parts.system, SubSteps::takes_impacts_at_once(parts.settings)),
+        mean_motion_(parts.integrator),
         positions_(kVelocity, parts.system.size()),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings})) {
     for (AlignedDoubles* records : {&velocities_, &displacements_, &pushes_, &inverse_inertias_})
@@ -150,7 +152,9 @@ class ImpulseStepper : public ContactStepper {
   void move_freely(MutableBodyColumns state, double t) {
     const bool are_rebounds = rows_.has_restitution() && impacts_.are_any();
     if (are_rebounds) rebounds_.begin(state);
+    mean_motion_.begin(state);
     integrator_->step(state, t, parameters_.h);
+    mean_motion_.end(state);
     if (!are_rebounds) return;
     rebounds_.resolve(rows_.groups(), parameters_, state);
     if (reports_.is_asked()) reports_.add_impacts(rows_, rebounds_.impulses());
@@ -216,9 +220,19 @@ class ImpulseStepper : public ContactStepper {
   // The integrator has moved the bodies; the velocity changes by the impulses move them further.
   void integrate_corrections(const Bodies& bodies, MutableBodyColumns state) {
     const double h = parameters_.theta * parameters_.h;
+    if (mean_motion_.is_needed()) {
+      for (std::size_t i = bodies.begin; i < bodies.end; ++i)
+        if (is_pushed(i, state)) mean_motion_.apply(i, h, state);
+    }
     if (state.has_rotation()) turn_matrices(bodies, velocities_, h, state);
     contact_kernels().integrate_corrections(bodies, velocities_.data(), h, state.column(0), positions_.column(0),
                                             displacements_.data());
+  }
+
+  bool is_pushed(std::size_t body, BodyColumns state) const {
+    const double* record = velocities_.data() + kRecord * body;
+    return Eigen::Map<const Vec3>(record) != state.velocity(body) ||
+           Eigen::Map<const Vec3>(record + 3) != state.angular_velocity(body);
   }
 
   // The bias of an impact may be as large as its speed. Without it, the corners must again agree. A body that is pushed
@@ -256,6 +270,7 @@ class ImpulseStepper : public ContactStepper {
   bool are_impulses_known_ = false;  // from a sub-step before
   TurningFriction turning_;
   Rebounds rebounds_;
+  MeanMotion mean_motion_;
   StepImpulses reports_;
   SolverParameters parameters_{};
   AlignedDoubles velocities_, displacements_, inverse_inertias_;  // see SolverBodies

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/dynamics/contact/impulse/jointed_rows.h"
+#include "core/dynamics/contact/impulse/mean_motion.h"
 #include "core/dynamics/contact/impulse/step_impulses.h"
 #include "core/dynamics/contact/impulse/sub_steps.h"
 #include "core/engine/state_archive.h"
@@ -21,6 +22,7 @@ class JointedImpulseStepper : public ContactStepper {
         sub_steps_(scene, parts),
         manifolds_(scene, alone_),
         rows_(scene, parts.system, joints_),
+        mean_motion_(parts.integrator),
         integrator_(parts.integrator.make({parts.system, nullptr, parts.orientation, parts.settings, parts.joints})) {}
 
   void step(MutableBodyColumns state, double t, double dt) override {
@@ -70,7 +72,9 @@ class JointedImpulseStepper : public ContactStepper {
  private:
   void sub_step(MutableBodyColumns state, double t) {
     rows_.prepare(state, t, parameters_);
+    mean_motion_.begin(state);
     integrator_->step(state, t, parameters_.h);
+    mean_motion_.end(state);
     rows_.load_velocities(state);
     rows_.warm_start();
     rows_.solve_with_bias();
@@ -87,10 +91,8 @@ class JointedImpulseStepper : public ContactStepper {
     for (std::size_t i = 0; i < state.size(); ++i) {
       const Vec6 change = rows_.change(i);
       if (change.isZero(0)) continue;
-      state.set_position(i, state.position(i) + h * change.head<3>());
-      const Quat turn = rotation_by(h * change.tail<3>());
-      if (state.has_rotation()) state.set_rotation(i, matrix_of(turn) * state.rotation(i));
-      state.set_orientation(i, (turn * state.orientation(i)).normalized());
+      mean_motion_.apply(i, h, state);
+      displace(i, h * change.head<3>(), h * change.tail<3>(), state);
     }
   }
 
@@ -108,6 +110,7 @@ class JointedImpulseStepper : public ContactStepper {
   SubSteps sub_steps_;
   Manifolds manifolds_;
   JointedRows rows_;
+  MeanMotion mean_motion_;
   StepImpulses reports_;
   SolverParameters parameters_{};
   std::unique_ptr<Stepper> integrator_;
