@@ -5,9 +5,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/base/portable.h"
+
 namespace rigor {
 
 using Vec3 = Eigen::Vector3d;
+using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;  // (w, x, y, z); takes the body frame B to the world frame W
 
@@ -22,8 +25,8 @@ inline Mat3 cross_matrix(const Vec3& a) {
 inline Quat rotation_by(const Vec3& angle) {
   const double theta = angle.norm();
   // sin(theta/2)/theta from its series where the quotient would lose digits; the next term is below 1e-17 there.
-  const double s = theta < 1e-4 ? 0.5 - theta * theta / 48.0 : std::sin(0.5 * theta) / theta;
-  return {std::cos(0.5 * theta), s * angle.x(), s * angle.y(), s * angle.z()};
+  const double s = theta < 1e-4 ? 0.5 - theta * theta / 48.0 : portable::sin(0.5 * theta) / theta;
+  return {portable::cos(0.5 * theta), s * angle.x(), s * angle.y(), s * angle.z()};
 }
 
 // The matrix of a quaternion of any length, from B to W: (w² - u·u) I + 2 u uᵀ + 2 w [u]x. For a unit quaternion it is
@@ -42,7 +45,7 @@ inline Mat3 matrix_of(const Quat& q) {
 // Angle [rad], in [0, pi], of the rotation between two orientations; a quaternion and its negative are the same one.
 inline double angle_between(const Quat& a, const Quat& b) {
   const Quat d = a.conjugate() * b;
-  return 2.0 * std::atan2(d.vec().norm(), std::abs(d.w()));
+  return 2.0 * portable::atan2(d.vec().norm(), std::abs(d.w()));
 }
 
 }  // namespace rigor

@@ -214,19 +214,20 @@ RepeatOutcome in_new_process(const std::string& change, const std::vector<std::u
 
 // glibc chooses its sine, exponential and the like by the processor. This variable makes it choose as on one without
 // AVX2 and FMA; other code of the process is not affected.
-RepeatOutcome with_older_c_library(const std::vector<std::uint64_t>& due, const HashesElsewhere& elsewhere) {
+RepeatOutcome with_older_c_library(const std::vector<std::uint64_t>& due, const RepeatOptions& options,
+                                   const EngineInfo& engine) {
   RepeatOutcome outcome;
   outcome.change = kCLibrary;
 #if defined(__GLIBC__) && defined(__x86_64__)
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    outcome =
-        in_new_process(kCLibrary, due, elsewhere, "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX");
+    outcome = in_new_process(kCLibrary, due, options.elsewhere,
+                             "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX");
   else
     outcome.why = "this processor has neither AVX2 nor FMA";
 #else
   outcome.why = "only glibc on x86-64 can be told to use an older processor's instructions";
 #endif
-  outcome.must_hold = false;
+  outcome.must_hold = engine.name == "core";  // which takes no such function from the C library
   return outcome;
 }
 
@@ -294,7 +295,8 @@ RepeatReport repeat(const EngineTable& engines, const Case& definition, const Ru
     const bool stands_behind_one = !report.outcomes.empty() && first->change == repeat_changes().front().name;
     report.outcomes.insert(first + stands_behind_one, in_new_process(kNewProcess, report.hashes, options.elsewhere));
   }
-  if (is_chosen(options, kCLibrary)) report.outcomes.push_back(with_older_c_library(report.hashes, options.elsewhere));
+  if (is_chosen(options, kCLibrary))
+    report.outcomes.push_back(with_older_c_library(report.hashes, options, repeated.info));
   const bool some_differ = std::any_of(report.outcomes.begin(), report.outcomes.end(),
                                        [](const RepeatOutcome& one) { return one.difference.has_value(); });
   if (!some_differ) return report;

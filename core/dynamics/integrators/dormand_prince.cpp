@@ -92,7 +92,7 @@ class DormandPrince : public Stepper {
   static double next_length(double error) {
     constexpr double kSafety = 0.9, kLeast = 0.1, kMost = 6;
     if (!std::isfinite(error)) return kLeast;
-    return error == 0 ? kMost : std::clamp(kSafety * std::pow(error, -1.0 / 8), kLeast, kMost);
+    return error == 0 ? kMost : std::clamp(kSafety / std::sqrt(std::sqrt(std::sqrt(error))), kLeast, kMost);
   }
 
   // Computes the other stages and next_ from y_, which belongs to `now`, and its rates in stage 0.

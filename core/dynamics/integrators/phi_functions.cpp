@@ -37,7 +37,8 @@ PhiFunctions of_twice(const PhiFunctions& phi) {
 
 PhiFunctions phi_functions(const Mat12& z) {
   const double norm = z.cwiseAbs().rowwise().sum().maxCoeff();
-  const int doublings = norm > 0.5 ? std::max(0, static_cast<int>(std::ceil(std::log2(2 * norm)))) : 0;
+  int doublings = 0;
+  while (std::ldexp(0.5, doublings) < norm) ++doublings;
   PhiFunctions phi = by_series(z / std::exp2(doublings));
   for (int k = 0; k < doublings; ++k) phi = of_twice(phi);
   return phi;

@@ -9,8 +9,6 @@
 
 namespace rigor {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-
 struct ConstraintRow {
   Vec6 on_a, on_b;  // J_a, J_b: also the wrench (force, torque about the centre of mass) of a unit of the multiplier
   double gap;       // g [m, or a sine or cosine]

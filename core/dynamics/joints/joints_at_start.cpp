@@ -56,7 +56,7 @@ void Joints::look_for_singularity(BodyColumns start) {
   double angle = 0;
   for (const int body : rows_.moved()) {
     if (system_.bodies[body].fixed) continue;
-    const auto next = [&] { return std::sin(angle += 2.4); };  // radians: never the same twice
+    const auto next = [&] { return portable::sin(angle += 2.4); };  // radians: never the same twice
     const double x = next(), y = next(), z = next(), turn_x = next(), turn_y = next(), turn_z = next();
     state.set_velocity(body, extent_ * Vec3(x, y, z)), state.set_angular_velocity(body, {turn_x, turn_y, turn_z});
   }

@@ -42,7 +42,7 @@ class Screw : public JointConstraint {
  private:
   double thread_gap(const EndMotion& a, const EndMotion& b, double way) const {
     const Vec3 axis = a.R * axis_a_, from = a.R * across_a_, to = b.R * across_b_;
-    const double turns = std::atan2(axis.dot(from.cross(to)), from.dot(to)) / (2 * std::numbers::pi);
+    const double turns = portable::atan2(axis.dot(from.cross(to)), from.dot(to)) / (2 * std::numbers::pi);
     const double off = way / pitch_ - turns;
     return pitch_ * (off - std::round(off));
   }

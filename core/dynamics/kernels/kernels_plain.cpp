@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/portable.h"
+#include "core/base/sine_polynomials.h"
 #include "core/dynamics/kernels/ball_kernels.h"
 #include "core/dynamics/kernels/contact_kernels.h"
 

@@ -106,11 +106,6 @@ RIGOR_INLINE V3<T> rotated(Q4<T> q, V3<T> a) {
   return a + q.w * t + cross(u, t);
 }
 
-// cos y and sin y / y as polynomials in s = y², for 0 <= s <= kLargestSquare: 1 + s times the polynomial of degree 7
-// that meets (cos y - 1)/s, (sin y / y - 1)/s at Chebyshev's points of [0, 2.5]. That leaves 4e-17; with the roundings
-// both are right to 3e-16.
-inline constexpr double kLargestSquare = 2.5;
-
 template <class T>
 RIGOR_INLINE T polynomial7(T s, const double (&c)[8]) {
   const auto pair = [&](int k) RIGOR_LAMBDA { return broadcast(T(), c[k]) + broadcast(T(), c[k + 1]) * s; };
@@ -118,19 +113,7 @@ RIGOR_INLINE T polynomial7(T s, const double (&c)[8]) {
   return (pair(0) + pair(2) * s2) + (pair(4) + pair(6) * s2) * s4;
 }
 
-inline constexpr double kCosine[8] = {-0.5,
-                                      0.041666666666666304,
-                                      -0.001388888888885841,
-                                      2.4801587291829438e-05,
-                                      -2.755731768929377e-07,
-                                      2.0876625841954573e-09,
-                                      -1.146453049361302e-11,
-                                      4.625701609891324e-14};
-inline constexpr double kSineQuotient[8] = {-0.16666666666666666,   0.008333333333333314,   -0.0001984126984125376,
-                                            2.7557319218837673e-06, -2.505210757580932e-08, 1.605897465969838e-10,
-                                            -7.643886158204389e-13, 2.730402537561207e-15};
-
-// Lane by lane with the library's functions, for turns of more than half a revolution.
+// Lane by lane for turns of more than half a revolution.
 template <class T>
 __attribute__((noinline)) void large_cosine_and_quotient(const T& s, T& cosine, T& quotient) {
   double in[sizeof(T) / sizeof(double)], c[sizeof(T) / sizeof(double)], f[sizeof(T) / sizeof(double)];
@@ -138,7 +121,7 @@ __attribute__((noinline)) void large_cosine_and_quotient(const T& s, T& cosine, 
   for (std::size_t k = 0; k < sizeof(T) / sizeof(double); ++k) {
     if (in[k] <= kLargestSquare) continue;
     const double y = __builtin_sqrt(in[k]);
-    c[k] = ::cos(y), f[k] = ::sin(y) / y;
+    c[k] = portable::cos(y), f[k] = portable::sin(y) / y;
   }
   cosine = load(T(), c), quotient = load(T(), f);
 }

@@ -24,7 +24,7 @@ bool is_singular(const auto& A, const auto& lu) {
   if (!(rows.minCoeff() > 0)) return true;
   Eigen::VectorXd probe = rows;
   for (Eigen::Index i = 0; i < probe.size(); ++i) {
-    probe[i] *= 1.5 + std::sin(static_cast<double>(i * i + 1));  // from 0.5 to 2.5
+    probe[i] *= 1.5 + portable::sin(static_cast<double>(i * i + 1));  // from 0.5 to 2.5
   }
   const Eigen::VectorXd answer = lu.solve(probe);
   if (!answer.allFinite()) return true;

@@ -40,7 +40,7 @@ JointCoordinate::Value JointCoordinate::on_axis(BodyColumns bodies) const {
   Value value;
   if (turns_) {
     const Vec3 from = a.R * reference_a_, to = b.R * reference_b_;
-    value.x = std::atan2(axis.dot(from.cross(to)), from.dot(to));
+    value.x = portable::atan2(axis.dot(from.cross(to)), from.dot(to));
     value.rate = axis.dot(b.angular_velocity - a.angular_velocity);
     value.bias = a.angular_velocity.cross(axis).dot(b.angular_velocity);
     value.torque_a = -axis, value.torque_b = axis;

@@ -28,10 +28,10 @@ namespace {
 
 // How far `from` turns about the unit axis to lie as `to` does.
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
-  return std::atan2(axis.dot(from.cross(to)), from.dot(to) - axis.dot(from) * axis.dot(to));
+  return portable::atan2(axis.dot(from.cross(to)), from.dot(to) - axis.dot(from) * axis.dot(to));
 }
 
-Mat3 turned_about(const Vec3& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
+Mat3 turned_about(const Vec3& axis, double angle) { return matrix_of(rotation_by(angle * axis)); }
 
 // The sine of a rotation about its axis, as a vector.
 Vec3 sines_of(const Mat3& turn) {
@@ -87,10 +87,11 @@ void AxisSeries::find_angles(const Mat3& turn, std::array<double, kMostSeriesAxe
   } else if (hinges_.size() == 3) {
     const Vec3 &u = axis(0), &v = axis(1), &w = axis(2);
     const double constant = u.dot(v) * v.dot(w), cosine = u.dot(w) - constant, of_sine = u.dot(v.cross(w));
-    const double size = std::hypot(cosine, of_sine), phase = std::atan2(of_sine, cosine);
-    const double from_phase = std::acos(std::clamp((u.dot(turn * w) - constant) / size, -1.0, 1.0));
+    const double size = std::hypot(cosine, of_sine), phase = portable::atan2(of_sine, cosine);
+    const double c = std::clamp((u.dot(turn * w) - constant) / size, -1.0, 1.0);
+    const double from_phase = portable::atan2(std::sqrt((1 - c) * (1 + c)), c);
     const double middle = phase - std::copysign(from_phase, phase);
-    sine = std::sin(from_phase);
+    sine = portable::sin(from_phase);
     const Mat3 by_middle = turned_about(v, middle);
     x[hinges_[0]] = angle_about(u, by_middle * w, turn * w);
     x[hinges_[1]] = middle;

@@ -16,7 +16,7 @@ TriangleMesh rings(const std::vector<std::array<double, 4>>& profile) {
   for (const auto& [radius, height, outwards, upwards] : profile) {
     for (int k = 0; k <= kRound; ++k) {
       const double angle = 2 * std::numbers::pi * k / kRound;
-      const Vec3 out(std::cos(angle), std::sin(angle), 0);
+      const Vec3 out(portable::cos(angle), portable::sin(angle), 0);
       mesh.points.push_back(radius * out + height * Vec3::UnitZ());
       mesh.normals.push_back((outwards * out + upwards * Vec3::UnitZ()).normalized());
     }
@@ -50,8 +50,8 @@ TriangleMesh unit_tube() { return rings({{0.5, -0.5, 1, 0}, {0.5, 0.5, 1, 0}}); 
 TriangleMesh unit_ball() {
   std::vector<std::array<double, 4>> profile;
   for (int k = 0; k <= kRound / 2; ++k) {
-    const double latitude = std::numbers::pi * (2.0 * k / kRound - 0.5), c = std::max(0.0, std::cos(latitude)),
-                 s = std::sin(latitude);
+    const double latitude = std::numbers::pi * (2.0 * k / kRound - 0.5), c = std::max(0.0, portable::cos(latitude)),
+                 s = portable::sin(latitude);
     profile.push_back({c / 2, s / 2, c, s});
   }
   return rings(profile);

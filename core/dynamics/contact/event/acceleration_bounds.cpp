@@ -85,7 +85,8 @@ double AccelerationBounds::largest_spin(std::size_t body, const Ends& ends, doub
     const Vec3 w = state.angular_velocity(body), L = angular_momentum_of(system_.bodies[body], state.rotation(body), w);
     energy = std::max(energy, w.dot(L)), momentum = std::min(momentum, L.norm()), spin = std::max(spin, w.norm());
   }
-  energy = std::pow(std::sqrt(energy) + 0.5 * ends.h * torque / std::sqrt(I[0]), 2);
+  const double most = std::sqrt(energy) + 0.5 * ends.h * torque / std::sqrt(I[0]);
+  energy = most * most;
   momentum = std::max(0.0, momentum - 0.5 * ends.h * torque);
   double square = spin * spin;
   for (int i = 0; i < 3; ++i) {

@@ -9,7 +9,6 @@
 namespace rigor {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 // d wrench(row) / d motion(column). A wrench is (force, torque about the centre of mass), a change of pose
 // (displacement [m], small rotation vector in W [rad]), a velocity (v, w); all in W.

@@ -15,7 +15,6 @@ namespace rigor {
 
 class ForceEquations {
  public:
-  using Vec6 = Eigen::Matrix<double, 6, 1>;
   struct Side {
     int place = -1;  // of a moving body in the island, or -1
     Vec6 of_J = Vec6::Zero(), of_P = Vec6::Zero();

@@ -30,7 +30,7 @@ Vec3 braked_direction(const PersistentPoint& point, double unit) {
   const Vec3 slip = point.frame.rightCols<2>() * point.velocity.tail<2>();
   const double along = slip.dot(point.slip_direction), size = slip.norm() / (kFading * kNoSlip * unit);
   const Vec3 ahead = along < 0 ? Vec3(slip - 2 * along * point.slip_direction) : slip;
-  return (ahead + kNoSlip * unit * std::exp(-size * size) * point.slip_direction).normalized();
+  return (ahead + kNoSlip * unit * portable::exp(-size * size) * point.slip_direction).normalized();
 }
 
 }  // namespace

@@ -83,7 +83,6 @@ class PersistentForces : public ConstraintForces {
   long times_asked() const { return times_asked_; }  // by hold(), ever
 
  private:
-  using Vec6 = Eigen::Matrix<double, 6, 1>;
   void find_islands();
   void place_limit(BodyColumns state, PersistentPoint& point) const;
   enum class Slips { as_chosen, not_yet };  // those that begin
