@@ -12,7 +12,7 @@ namespace rigor {
 
 inline std::string siconos_info() {
   return fmt::format(R"({{"ok": true, "rigor": 1, "name": "siconos", "version": "4.4.0",
-  "precision": "double", "calls": ["run"], "columns": "f64le",
+  "precision": "double", "calls": ["run", "contacts"], "columns": "f64le",
   "features": ["spring", "timed-force", "fixed-body", "restitution", "contact-filter", "friction:none", "friction:coulomb",
     "contact:box-box", "contact:box-capsule", "contact:box-plane", "contact:box-sphere", "contact:capsule-capsule",
     "contact:capsule-plane", "contact:capsule-sphere", "contact:plane-sphere", "contact:sphere-sphere",

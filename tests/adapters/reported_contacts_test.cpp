@@ -20,7 +20,7 @@ std::vector<std::string> reporting() {
   for (const char* run :
        {"core:velocity-verlet,contact=impulse", "core:semi-implicit-euler,contact=impulse",
         "core:velocity-verlet,contact=event", "core:dormand-prince,contact=event", "ode", "ode:quickstep", "bullet",
-        "bullet:mlcp", "bullet:multibody", "bullet@stock", "mujoco", "mujoco:implicit", "dart"}) {
+        "bullet:mlcp", "bullet:multibody", "bullet@stock", "mujoco", "mujoco:implicit", "dart", "siconos"}) {
     const std::string name = run, engine = name.substr(0, name.find_first_of(":@"));
     if (std::any_of(infos.begin(), infos.end(), [&](const EngineInfo& info) { return info.name == engine; }))
       runs.push_back(name);

@@ -74,6 +74,7 @@ class Worlds {
       return with_warning({{"ok", true}}, world.warning());
     }
     if (call == "read") return sample(world, true);
+    if (call == "contacts") return contacts(world);
     if (call == "run") return run(world, ask.at("dt"), ask.at("count"), ask.at("every"));
     return {{"ok", false}, {"status", "failed"}, {"why", "no such call: " + call}};
   }
@@ -105,6 +106,22 @@ class Worlds {
     Json out = {{"time", world.time()}};
     if (is_whole) out["ok"] = true;
     return out;
+  }
+  // A point that two parts of a step have is given twice: forces of a pair are sums.
+  static Json contacts(const SiconosWorld& world) {
+    const auto list = [](const Vec3& v) { return Json{v.x(), v.y(), v.z()}; };
+    Json contacts = Json::array();
+    if (world.last_step() > 0) {
+      for (const ContactImpulse& at : world.contact_impulses()) {
+        contacts.push_back({{"a", at.a},
+                            {"b", at.b},
+                            {"point", list(at.point)},
+                            {"normal", list(at.normal)},
+                            {"gap", at.gap},
+                            {"force", list(at.impulse / world.last_step())}});
+      }
+    }
+    return {{"ok", true}, {"contacts", contacts}};
   }
   Json run(SiconosWorld& world, double dt, long count, long every) {
     Json samples = Json::array();

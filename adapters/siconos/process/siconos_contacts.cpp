@@ -33,6 +33,18 @@ class ContactPoint : public NewtonEuler3DR {
     for (int k = 0; k < 3; ++k) gap += (*_Nc)(k) * ((*_Pc1)(k) - (*_Pc2)(k));
     y.setValue(0, gap);
   }
+  // At the last step's end. Siconos has the bodies in the same order, the normal towards the first, and in `lambda` the
+  // impulse along the rows of the contact's frame.
+  ContactImpulse impulse(const SiconosVector& lambda) const {
+    ContactImpulse found{0, 0, {}, {}, 0, Vec3::Zero()};
+    for (unsigned k = 0; k < 3; ++k) {
+      found.point[k] = 0.5 * ((*_Pc1)(k) + (*_Pc2)(k));
+      found.normal[k] = -(*_Nc)(k);
+      found.gap += (*_Nc)(k) * ((*_Pc1)(k) - (*_Pc2)(k));
+      for (unsigned row = 0; row < 3; ++row) found.impulse[k] -= (*_jachqT)(row, k) * lambda(row);
+    }
+    return found;
+  }
 };
 
 Contacts::Contacts(const Scene& scene, Bodies& bodies)
@@ -64,6 +76,14 @@ void Contacts::updateInteractions(SP::Simulation simulation) {
   for (auto it = kept_.begin(); it != kept_.end();) {
     if (!it->second.is_seen) simulation->unlink(it->second.interaction);
     it = it->second.is_seen ? std::next(it) : kept_.erase(it);
+  }
+}
+
+void Contacts::add_impulses(std::vector<ContactImpulse>& impulses) const {
+  for (const auto& [key, kept] : kept_) {
+    ContactImpulse found = kept.point->impulse(*kept.interaction->lambda(1));
+    found.a = static_cast<int>(key[0]), found.b = static_cast<int>(key[1]);
+    impulses.push_back(found);
   }
 }
 

@@ -16,6 +16,13 @@ namespace rigor::siconos {
 
 class ContactPoint;
 
+struct ContactImpulse {
+  int a, b;
+  Vec3 point, normal;  // m, in W; unit, from a to b
+  double gap;          // m
+  Vec3 impulse;        // N s, on b, in W
+};
+
 class Contacts : public InteractionManager {
  public:
   Contacts(const Scene& scene, Bodies& bodies);
@@ -24,6 +31,8 @@ class Contacts : public InteractionManager {
   void set_step(double dt) { dt_ = dt; }  // s
   // Called by Siconos in each step, behind a first guess of the positions at its end.
   void updateInteractions(SP::Simulation simulation) override;
+  // Adds what its contacts carried in the step that Siconos has just computed.
+  void add_impulses(std::vector<ContactImpulse>& impulses) const;
   void forget() { kept_.clear(); }  // of a simulation that is no more
 
  private:

@@ -109,7 +109,8 @@ void SiconosWorld::look_back() {
 void SiconosWorld::step(double dt) {
   const double begin = clock_.time();
   clock_.advance(dt);
-  warning_.clear();
+  warning_.clear(), impulses_.clear();
+  last_step_ = dt;
   bodies_->loads().for_each_smooth_part(begin, dt, [&](double from, double length) {
     if (lost_body() < 0) step_part(from, length);
   });
@@ -125,6 +126,7 @@ void SiconosWorld::step_part(double from, double dt) {
     if (dt != dt_ || has_switched) start(from, dt);
     last_answer = 0;
     simulation_->computeOneStep();
+    contacts_->add_impulses(impulses_);
     simulation_->nextStep();
     bodies_->gather();
     look_back();

@@ -29,7 +29,10 @@ class SiconosWorld {
   BodyColumns state() const { return bodies_->state(); }
   // Why the last step is less accurate than the method promises; empty if it is not.
   const std::string& warning() const { return warning_; }
-  int lost_body() const;  // the first whose state is not finite; -1 for none
+  // Of the contacts of the last step, once for each of its parts.
+  const std::vector<ContactImpulse>& contact_impulses() const { return impulses_; }
+  double last_step() const { return last_step_; }  // s
+  int lost_body() const;                           // the first whose state is not finite; -1 for none
   std::vector<std::pair<std::string, std::string>> settings_in_force() const;
 
  private:
@@ -49,6 +52,8 @@ class SiconosWorld {
   std::shared_ptr<NonSmoothDynamicalSystem> system_;
   double dt_ = 0, middle_ = 0;  // s, of the last step
   std::string warning_;
+  std::vector<ContactImpulse> impulses_;
+  double last_step_ = 0;  // s
   Clock clock_;
 };
 
