@@ -73,20 +73,21 @@ std::string spread_line(const Divergence& found) {
 std::string entering_line(const Divergence& found) {
   const Injections& injections = found.injections;
   if (injections.steps.empty()) return titled_line("enters", "not measured: " + injections.why);
-  constexpr double kNoGrowth = 1e-6;  // that of roundings
+  constexpr double kNoGrowth = 0.005;  // what three digits show as 1
   const bool grows = std::abs(injections.growth_factor - 1) > kNoGrowth;
-  const std::string growth = grows ? fmt::format("a nudge grows {:.3g} times until then (exponent {:.2g}/s)",
+  const std::string growth = grows ? fmt::format("a nudge is multiplied by {:.3g} until then (exponent {:.2g}/s)",
                                                  injections.growth_factor, injections.growth)
                                    : std::string("a nudge does not grow until then");
   constexpr double kMore = 1.5;  // beyond what ends of a step may add
   const char* taken =
       injections.injected < 0 || injections.injected > kMore ? ", so contacts and joints take differences back" : "";
   return titled_line(
-      "enters", fmt::format("free motion of all one-step differences makes {:.3g} of the gap{}; {}{}",
-                            injections.injected, taken, growth,
-                            injections.has_all_steps ? ""
-                                                     : fmt::format("; {} of {} steps looked at",
-                                                                   injections.steps.size(), found.parting->sample)));
+      "enters",
+      fmt::format("differences of single steps, carried on by free motion, add up to {:.3g} % of the gap{}; {}{}",
+                  100 * injections.injected, taken, growth,
+                  injections.has_all_steps
+                      ? ""
+                      : fmt::format("; {} of {} steps looked at", injections.steps.size(), found.parting->sample)));
 }
 
 // The largest hidden share of one run.
