@@ -98,8 +98,8 @@ class Profiling {
     for (long row = 0; row < rows.rows(); ++row) rows.row(row) *= weights_[kind_of(row)];
   }
 
-  // Column by column, that which is known best first. What the columns before leave of a column must be beyond its own
-  // error: contacts that open and close make such errors, and a direction made of them means nothing.
+  // Takes the columns one by one, the best known first. The rest that a column adds to those before must be larger than
+  // its own error. Contacts that open and close make such errors, and a direction made of errors means nothing.
   void span_others() {
     constexpr double kKnown = 3;  // errors
     Matrix others = input_.others, errors = input_.others_error;
@@ -171,7 +171,7 @@ class Profiling {
     return std::sqrt(quantile(boost::math::chi_squared(free), kSureOfExcess) / free);
   }
 
-  // From the correlation of residuals with those of the row before. Noise that lasts tells less often.
+  // Residuals that resemble those of the row before tell less than their number. Returns how many tell as much as one.
   double wait() const {
     constexpr long kRow = 3;
     double longest = 1;

@@ -21,8 +21,8 @@ class StartedRuns {
   // Derivatives of the residuals by the starts' unknowns, where they were fitted.
   const Eigen::MatrixXd& by_starts() const { return by_starts_; }
   const Eigen::MatrixXd& by_starts_error() const { return by_starts_error_; }  // half the difference of both sides
-  // From the fitted starts: gaps in standard deviations of the noise, all positions, then all rotations. Empty where a
-  // run has no result.
+  // Runs the fitted starts. Returns gaps in standard deviations of the noise, all positions, then all rotations. Empty
+  // where a run has no result.
   std::vector<Eigen::VectorXd> residuals(const std::vector<Eigen::VectorXd>& values);
   std::vector<int> kinds() const;  // of each residual; 0: a position, 1: a rotation
 
@@ -38,7 +38,7 @@ class StartedRuns {
   Eigen::VectorXd starts_;   // as fitted
   Eigen::MatrixXd by_starts_, by_starts_error_;
   std::size_t positions_ = 0;  // residuals
-  // Of the last batch, by trial and unknowns: a difference along one unknown changes one trial's start at most.
+  // The last batch, by trial and unknowns. A difference along one unknown changes one trial's start at most.
   std::map<std::vector<double>, TrialResiduals> kept_;
 };
 
