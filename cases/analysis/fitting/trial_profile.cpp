@@ -58,6 +58,17 @@ TrialProfile profile_of_trials(FitProbe& probe, const FitTrials& trials, const s
                     input.kinds.size());
     return result;
   }
+  // A linear model of the start holds near the recorded motion. Chaos, or another law, leads runs far away from it.
+  constexpr double kMostExcess = 3;
+  const double excess = *std::max_element(profile.excess.begin(), profile.excess.end());
+  if (excess > kMostExcess) {
+    result.best = minima.front();
+    result.why_no_intervals = fmt::format(
+        "No interval can be told: with every start near the recorded one, runs stay {:.3g} times as far away as the "
+        "noise explains.",
+        excess);
+    return result;
+  }
   result.axes = profile.axes, result.correlations = profile.correlations, result.caveats = caveats_of(profile);
   return result;
 }
