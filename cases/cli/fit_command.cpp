@@ -81,12 +81,19 @@ std::vector<Case> cases_of(const FitRequest& asked, const Vocabulary& words) {
 
 std::string number(double value) { return fmt::format("{:.4g}", value); }
 
+// The data tell one end alone if the other is that of the range.
+std::string interval_text(const FittedParameter& parameter) {
+  const std::string low = number(parameter.interval->first), high = number(parameter.interval->second);
+  if (parameter.is_low_open && !parameter.is_high_open) return "at most " + high;
+  if (parameter.is_high_open && !parameter.is_low_open) return "at least " + low;
+  return fmt::format("{} to {}", low, high);
+}
+
 std::string parameter_text(const FittedParameter& parameter) {
   std::string text = fmt::format("  {} = {}{}{}", parameter.key, number(parameter.number),
                                  parameter.unit.empty() || parameter.unit == "1" ? "" : " ",
                                  parameter.unit == "1" ? "" : parameter.unit);
-  if (parameter.interval)
-    text += fmt::format(", 95 %: {} to {}", number(parameter.interval->first), number(parameter.interval->second));
+  if (parameter.interval) text += ", 95 %: " + interval_text(parameter);
   if (parameter.is_at_bound) text += "; at the end of its range, so a better value may lie beyond";
   if (!parameter.unknown.empty()) text += fmt::format("; the data cannot tell it: {}", parameter.unknown);
   return text + "\n";
@@ -124,6 +131,7 @@ std::string text_of(const RunName& run, const FitResult& fit) {
   std::string text = fmt::format("{}: {} values tried\n", run.text, fit.points);
   for (const FittedParameter& parameter : fit.parameters) text += parameter_text(parameter);
   if (!fit.why_no_intervals.empty()) text += "  " + fit.why_no_intervals + "\n";
+  for (const std::string& caveat : fit.caveats) text += "  " + caveat + "\n";
   text += correlations_text(fit) + errors_text(fit.held_out ? "fitted" : "error", fit.training);
   if (fit.held_out) text += errors_text("held out", *fit.held_out);
   return text;
@@ -200,6 +208,8 @@ CommandRow fit_row() {
           kCases,
           {{"rigor fit reality/cube-tosses --engine bullet --vary scene.contact_default.friction=0.02..0.6",
             "the friction with which Bullet follows the tosses best"},
+           {"rigor fit my-swing.toml --engine core:rk4 --vary scene.joint.pivot.friction=0..0.5",
+            "from one recorded trial: the interval is that of the profile likelihood"},
            {"rigor fit reality/cube-tosses --engine mujoco --vary scene.contact_default.friction=0.02..0.6 --hold-out "
             "0.5",
             "the same, judged on tosses that took no part"}},

@@ -3,41 +3,17 @@
 // masses.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "cases/case/case_reader.h"
+#include "cases/case/settled_velocities.h"
 #include "cases/cli/commands.h"
 #include "cases/cli/output.h"
 #include "core/base/error.h"
-#include "core/dynamics/joints/joints.h"
-#include "core/scene/joint_rates.h"
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/table_reader.h"
 #include "core/scene/toml/writing/velocity_writer.h"
 
 namespace rigor {
 namespace {
-
-// Changes only bodies with joints, and nothing if no joint is broken.
-void settle(Scene& scene) {
-  const auto breaks = [&](const auto& row) { return !why_rates_break(scene, row).empty(); };
-  if (std::none_of(scene.joints.begin(), scene.joints.end(), breaks) &&
-      std::none_of(scene.couplings.begin(), scene.couplings.end(), breaks))
-    return;
-  BodyTable state(scene.bodies.size());
-  set_initial_state(scene, state.columns());
-  Scene at_rest = scene;  // velocities that break joints would only disturb
-  for (Body& body : at_rest.bodies) body.velocity = body.angular_velocity = Vec3::Zero();
-  const System system(at_rest);
-  Joints joints(at_rest, system);
-  joints.project(state.columns());
-  if (const std::string why = joints.warning(); !why.empty()) throw InputError(why);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].fixed) continue;
-    scene.bodies[i].velocity = state.columns().velocity(i);
-    scene.bodies[i].angular_velocity = state.columns().angular_velocity(i);
-  }
-}
 
 class SettleCommand : public Command {
  public:
@@ -48,7 +24,7 @@ class SettleCommand : public Command {
     const TomlFile file = TomlFile::read(words_.front());
     const TomlValue value = file.root(case_keys()).at("scene");
     Scene scene = read_scene(value, InitialVelocities::as_given);
-    settle(scene);
+    settle_velocities(scene);
     const std::string text = with_velocities(file, value, scene);
     // Velocities of the copies of an array cannot be written. Reading the text again finds that.
     try {

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "cases/case/recording/recording_reader.h"
-#include "cases/runner/process_pool.h"
+#include "cases/case/settled_velocities.h"
 #include "cases/truth/recorded/recorded_motion.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
@@ -33,6 +34,37 @@ bool unpack(const std::string& text, Heard& heard) {
   if (text.size() != sizeof heard) return false;
   std::memcpy(&heard, text.data(), sizeof heard);
   return true;
+}
+
+// A message: which run, how many residuals of positions and rotations, and these.
+struct ResidualsHead {
+  std::size_t run, positions, rotations;
+  bool has_result;
+};
+
+std::string bytes_of(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), sizeof(double) * values.size()};
+}
+
+std::string packed(std::size_t run, const TrialResiduals& one) {
+  const ResidualsHead head{run, one.positions.size(), one.rotations.size(), one.has_result};
+  return std::string(reinterpret_cast<const char*>(&head), sizeof head) + bytes_of(one.positions) +
+         bytes_of(one.rotations);
+}
+
+void unpack(const std::string& text, std::vector<TrialResiduals>& all) {
+  ResidualsHead head{};
+  if (text.size() < sizeof head) return;
+  std::memcpy(&head, text.data(), sizeof head);
+  if (head.run >= all.size() || text.size() != sizeof head + sizeof(double) * (head.positions + head.rotations)) return;
+  TrialResiduals& one = all[head.run];
+  const char* from = text.data() + sizeof head;
+  for (auto [values, count] : {std::pair(&one.positions, head.positions), {&one.rotations, head.rotations}}) {
+    values->resize(count);
+    if (count > 0) std::memcpy(values->data(), from, sizeof(double) * count);
+    from += sizeof(double) * count;
+  }
+  one.has_result = head.has_result;
 }
 
 // The trials of one child: every `stride`-th from `first`, all of one point.
@@ -145,6 +177,52 @@ std::vector<std::vector<TrialError>> FitProbe::errors(const std::vector<BoxPoint
   points_ += points.size();
   if (input_.on_points) input_.on_points(points_);
   return errors;
+}
+
+void FitProbe::send_residuals(const std::vector<StartedTrial>& runs, std::size_t first, std::size_t stride,
+                              const Channel& channel) const {
+  std::map<std::pair<BoxPoint, std::size_t>, Case> definitions;  // most runs of a batch differ by their start alone
+  for (std::size_t n = first; n < runs.size(); n += stride) {
+    const auto [c, k] = runs[n].trial;
+    const auto key = std::pair(runs[n].at, c);
+    if (!definitions.contains(key)) definitions.emplace(key, definition_at(runs[n].at, c));
+    Case one = case_of_trial(definitions.at(key), *recordings_[c], k);
+    const std::vector<RecordedBody>& bodies = recordings_[c]->trials[k].bodies;
+    TrialResiduals residuals;
+    try {
+      for (std::size_t b = 0; b < bodies.size(); ++b)
+        move_start(one.scene.bodies[static_cast<std::size_t>(bodies[b].body)], runs[n].shifts[b]);
+      settle_velocities(one.scene);
+      const RunName run = run_at(runs[n].at);
+      residuals = trial_residuals(one, *as_recording(truths_[c][k].get()), engines_.find(run.engine), run.settings,
+                                  one.dt.front().seconds);
+    } catch (const EngineFailure&) {
+      // counts as a run without result
+    }
+    channel.send(packed(n, residuals));
+  }
+  engines_.rest();
+}
+
+std::vector<TrialResiduals> FitProbe::residuals(const std::vector<StartedTrial>& runs) {
+  std::vector<TrialResiduals> all(runs.size());
+  const std::size_t stride = std::min(static_cast<std::size_t>(std::max(1, input_.jobs)), runs.size());
+  std::vector<Job> jobs;
+  for (std::size_t first = 0; first < stride; ++first)
+    jobs.push_back(
+        {[&, first](const Channel& channel) { send_residuals(runs, first, stride, channel); }, input_.limit});
+  std::string refused;
+  run_jobs(
+      jobs, input_.jobs, [&](std::size_t, const std::string& message) { unpack(message, all); },
+      [&](std::size_t, const JobEnd& end) {
+        if (end.how == Ending::refused) refused = end.text;
+      });
+  if (!refused.empty()) throw InputError(refused);
+  std::set<BoxPoint> points;
+  for (const StartedTrial& run : runs) points.insert(run.at);
+  points_ += points.size();
+  if (input_.on_points) input_.on_points(points_);
+  return all;
 }
 
 }  // namespace rigor

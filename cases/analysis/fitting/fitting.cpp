@@ -8,6 +8,7 @@
 
 #include "cases/analysis/fitting/bootstrap.h"
 #include "cases/analysis/fitting/fit_probe.h"
+#include "cases/analysis/fitting/trial_profile.h"
 #include "cases/case/recording/recording.h"
 #include "core/base/error.h"
 
@@ -18,6 +19,8 @@ constexpr std::size_t kStarts = 3;
 constexpr double kApart = 0.2;     // of starts: beyond the first simplex of another
 constexpr double kAtBound = 1e-3;  // of a range: nearer to its end a minimum cannot be told from one beyond it
 constexpr double kDegrees = 57.29577951308232;
+
+constexpr const char* kChangesNothing = "it changes nothing here";
 
 using Errors = std::vector<TrialError>;
 
@@ -121,10 +124,16 @@ class Fitting {
   }
 
   FitResult run() {
-    const BoxMinimum best = searched();
+    BoxMinimum best = searched();
     FitResult fit;
+    std::optional<TrialProfile> profile;
+    if (has_profile()) profile = profile_of_trials(probe_, split_.training, minima_), best.at = profile->best;
     for (std::size_t i = 0; i < input_.axes.size(); ++i) fit.parameters.push_back(parameter_at(best.at, i));
-    tell_intervals(best, fit);
+    if (profile) {
+      tell_profile(*profile, fit);
+    } else {
+      tell_bootstrap(best, fit);
+    }
     fit.training = errors_on(best.at, split_.training);
     if (!split_.held_out.empty()) fit.held_out = errors_on(best.at, split_.held_out);
     fit.points = probe_.points();
@@ -157,8 +166,11 @@ class Fitting {
       return mean_of(loss_.of(errors_at(point)));
     };
     for (const BoxMinimum& start : distinct_starts(tried, kStarts, kApart)) {
-      const BoxMinimum found = nelder_mead(function, start, {0.1, 1e-4, 40 * axes});
-      if (found.value < best.value) best = found;
+      // The profile's own search goes on from a rough minimum.
+      const BoxMinimum found = nelder_mead(function, start, {0.1, has_profile() ? 1e-2 : 1e-4, 40 * axes});
+      const bool is_best = minima_.empty() || found.value < best.value;
+      if (is_best) best = found;
+      minima_.insert(is_best ? minima_.begin() : minima_.end(), found.at);
     }
     return best;
   }
@@ -176,11 +188,41 @@ class Fitting {
     return number_in(probe_.values_at(point)[i]);
   }
 
-  void tell_intervals(const BoxMinimum& best, FitResult& fit) {
+  bool has_profile() const {
+    if (split_.training.size() >= kFewestTrials) return false;
+    return std::all_of(split_.training.begin(), split_.training.end(),
+                       [&](const FitTrial& one) { return probe_.recording_of(one.of_case) != nullptr; });
+  }
+
+  void tell(const BoxPoint& best, std::size_t i, double low, double high, FittedParameter& parameter) const {
+    parameter.interval = {number_at(best, i, low), number_at(best, i, high)};
+    parameter.is_low_open = low <= 0, parameter.is_high_open = high >= 1;
+  }
+
+  void tell_profile(const TrialProfile& profile, FitResult& fit) {
+    fit.caveats = profile.caveats, fit.correlations = profile.correlations;
+    fit.why_no_intervals = profile.why_no_intervals;
+    if (fit.why_no_intervals.empty()) fit.method = "profile";
+    for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+      FittedParameter& parameter = fit.parameters[i];
+      if (changes_nothing(profile.best, i)) parameter.unknown = kChangesNothing;
+      if (profile.axes.empty() || !parameter.unknown.empty()) continue;
+      const ProfileAxis& axis = profile.axes[i];
+      if (axis.is_low_open && axis.is_high_open) {
+        parameter.unknown = "no value of its range is unlikely";
+      } else {
+        tell(profile.best, i, axis.low, axis.high, parameter);
+        parameter.is_low_open = axis.is_low_open, parameter.is_high_open = axis.is_high_open;
+      }
+    }
+  }
+
+  void tell_bootstrap(const BoxMinimum& best, FitResult& fit) {
     for (std::size_t i = 0; i < fit.parameters.size(); ++i) fit.parameters[i].unknown = why_unknown(best.at, i);
     if (split_.training.size() < kFewestTrials) {
-      fit.why_no_intervals = fmt::format("No interval can be told: {} trial{} took part, and a bootstrap needs {}.",
-                                         split_.training.size(), split_.training.size() == 1 ? "" : "s", kFewestTrials);
+      fit.why_no_intervals = fmt::format(
+          "No interval can be told: a computed truth has no noise, {} trial{} took part, and a bootstrap needs {}.",
+          split_.training.size(), split_.training.size() == 1 ? "" : "s", kFewestTrials);
       return;
     }
     const Bootstrap bootstrap = bootstrap_around(
@@ -197,20 +239,31 @@ class Fitting {
       constexpr double kWhole = 0.9;  // of the range
       if (parameter.unknown.empty() && (!axis.is_curved || axis.high - axis.low > kWhole))
         parameter.unknown = "the interval is the whole range";
-      if (parameter.unknown.empty())
-        parameter.interval = {number_at(best.at, i, axis.low), number_at(best.at, i, axis.high)};
+      if (parameter.unknown.empty()) tell(best.at, i, axis.low, axis.high, parameter);
     }
-    fit.correlations = bootstrap.correlations;
+    fit.method = "bootstrap", fit.correlations = bootstrap.correlations;
+  }
+
+  // Whether both ends of the range give the very errors of the best value.
+  bool changes_nothing(const BoxPoint& best, std::size_t i) {
+    const auto losses = losses_at_ends(best, i);
+    return losses[1] == losses[0] && losses[2] == losses[0];
+  }
+
+  std::vector<std::vector<double>> losses_at_ends(const BoxPoint& best, std::size_t i) {
+    BoxPoint low = best, high = best;
+    low[i] = 0, high[i] = 1;
+    std::vector<std::vector<double>> losses;
+    for (const Errors& one : probe_.errors({best, low, high}, split_.training)) losses.push_back(loss_.of(one));
+    return losses;
   }
 
   // The ends of the range, with all else as fitted. An end that fits as well, as far as the trials can tell, says that
   // they know no value.
   std::string why_unknown(const BoxPoint& best, std::size_t i) {
-    BoxPoint low = best, high = best;
-    low[i] = 0, high[i] = 1;
-    const auto errors = probe_.errors({best, low, high}, split_.training);
-    const auto at_best = loss_.of(errors[0]), at_low = loss_.of(errors[1]), at_high = loss_.of(errors[2]);
-    if (at_low == at_best && at_high == at_best) return "it changes nothing here";
+    const auto losses = losses_at_ends(best, i);
+    const auto &at_best = losses[0], &at_low = losses[1], &at_high = losses[2];
+    if (at_low == at_best && at_high == at_best) return kChangesNothing;
     if (is_as_good(at_low, at_best) && is_as_good(at_high, at_best)) return "both ends of the range fit as well";
     return "";
   }
@@ -231,6 +284,7 @@ class Fitting {
   FitProbe probe_;
   Split split_;
   TrialLoss loss_{1};
+  std::vector<BoxPoint> minima_;  // of all searches
 };
 
 void check_axes(const FitInput& input) {

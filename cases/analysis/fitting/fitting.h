@@ -1,6 +1,7 @@
 // Fits scene values and engine options to the truth of one or several cases. A Latin hypercube finds where to start,
 // and the simplex method of Nelder and Mead goes on from there. Trials that no value explains count little (Huber's
-// loss, smoothed). Intervals come from a bootstrap over the trials.
+// loss, smoothed). Intervals come from a bootstrap over the trials. Fewer than five recorded trials have the profile
+// likelihood instead, and their values are the most likely ones.
 #pragma once
 
 #include <functional>
@@ -31,6 +32,8 @@ struct FittedParameter {
   std::string value;  // as it goes into the case file
   double number = 0;
   std::optional<std::pair<double, double>> interval;  // 95 %
+  // This end of the interval is that of the range, and the data tell no end on this side.
+  bool is_low_open = false, is_high_open = false;
   bool is_at_bound = false;  // the best value is an end of the range: the true one may lie beyond
   std::string unknown;       // why the data cannot tell the value; empty if they can
 };
@@ -45,14 +48,16 @@ struct FitErrors {
 
 struct FitResult {
   std::vector<FittedParameter> parameters;
-  std::vector<std::vector<double>> correlations;  // of the parameters, from the bootstrap; empty without intervals
+  std::vector<std::vector<double>> correlations;  // of the parameters; empty without intervals
   FitErrors training;
   std::optional<FitErrors> held_out;
-  std::string why_no_intervals;  // a sentence; empty if there are intervals
-  std::size_t points = 0;        // tried
+  std::string method;                // of the intervals: "bootstrap", "profile"; empty without them
+  std::string why_no_intervals;      // a sentence; empty if there are intervals
+  std::vector<std::string> caveats;  // sentences on what the intervals rest on
+  std::size_t points = 0;            // tried
 };
 
-// The trials fewer than which no interval can be told: two halves of them are no sample.
+// The trials fewer than which a bootstrap tells no interval: two halves of them are no sample.
 inline constexpr std::size_t kFewestTrials = 5;
 
 // Throws InputError for an unknown key, with a near match, and for values that the cases cannot have.

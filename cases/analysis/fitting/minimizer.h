@@ -20,9 +20,9 @@ struct BoxMinimum {
 };
 
 struct SimplexOptions {
-  double size = 0.15;       // of the first simplex
-  double tolerance = 1e-4;  // the search ends when the simplex is smaller
-  std::size_t most = 120;   // evaluations
+  double size = 0.15;                                        // of the first simplex
+  double tolerance = 1e-4;                                   // the search ends when the simplex is smaller
+  std::size_t most = 120;                                    // evaluations
   double enough = -std::numeric_limits<double>::infinity();  // the search ends at a value this small
 };
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/math.h"
@@ -26,7 +27,7 @@ struct RecordedTrial {
 };
 
 struct MotionRecording {
-  std::string path;                 // of the CSV file
+  std::string path;                 // of the CSV or MCAP file
   double position_noise = 0;        // m: standard deviation along each axis; 0 if no position was measured
   double orientation_noise = 0;     // rad: standard deviation about each axis; 0 if no orientation was measured
   bool is_noise_estimated = false;  // one of the two, from the scatter of the samples
@@ -49,5 +50,10 @@ void start_from(const MotionRecording& recording, std::size_t trial, Scene& scen
 // any order, among other columns. Throws InputError with file, line and column. Each vector is whole or absent.
 std::vector<RecordedTrial> read_trials(const std::string& text, const std::string& path, const std::string& group,
                                        const Scene& scene);
+
+// The one trial of an MCAP file, from the poses of its channel with Foxglove's FrameTransforms as JSON, in the frame
+// "world". It has no velocities. Throws InputError with file and byte.
+std::vector<RecordedTrial> read_mcap_trials(std::string_view file, const std::string& path, const std::string& group,
+                                            const Scene& scene);
 
 }  // namespace rigor

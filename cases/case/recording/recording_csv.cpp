@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "cases/case/recording/recorded_trial.h"
 #include "cases/case/recording/recording.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -55,7 +56,7 @@ class RecordingFile {
       add(row);
     }
     if (trials_.empty()) refuse(1, "there is no row below the header; allowed: two rows or more of each trial");
-    for (RecordedTrial& trial : trials_) finish(trial);
+    for (RecordedTrial& trial : trials_) begin_at_zero(trial, names_, path_);
     return std::move(trials_);
   }
 
@@ -198,25 +199,6 @@ class RecordingFile {
     if (known != bodies.end()) return *known;
     bodies.emplace_back().body = body;
     return bodies.back();
-  }
-
-  // Moves the trial's start to t = 0.
-  void finish(RecordedTrial& trial) const {
-    const std::string of = trial.name.empty() ? "the recording" : fmt::format("trial '{}'", shown(trial.name));
-    double start = trial.bodies.front().times.front();
-    for (const RecordedBody& body : trial.bodies) start = std::min(start, body.times.front());
-    trial.duration = std::numeric_limits<double>::infinity();
-    for (RecordedBody& body : trial.bodies) {
-      const std::string& name = names_[static_cast<std::size_t>(body.body)];
-      if (body.times.size() < 2)
-        throw InputError(
-            fmt::format("{}: {} has one sample of '{}'; allowed: two or more of each body", path_, of, name));
-      if (body.times.front() != start)
-        throw InputError(fmt::format("{}: {}: '{}' begins at {} s, and another body at {} s; allowed: one start", path_,
-                                     of, name, body.times.front(), start));
-      for (double& time : body.times) time -= start;
-      trial.duration = std::min(trial.duration, body.times.back());
-    }
   }
 
   [[noreturn]] void refuse(std::size_t at, const std::string& fault) const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "cases/case/recording/mcap_records.h"
 #include "cases/case/recording/noise.h"
 #include "cases/case/recording/pieces.h"
 #include "core/base/content_hash.h"
@@ -52,8 +53,10 @@ std::shared_ptr<const ParsedFile> parsed_file(const std::string& path, const std
   for (const Body& body : scene.bodies) key += fmt::format("\n{} {}", body.name, body.fixed);
   if (const auto found = kept.find(key); found != kept.end()) return found->second;
   const std::string text = read_text_file(path);
-  const auto parsed =
-      std::make_shared<const ParsedFile>(ParsedFile{content_hash(text), read_trials(text, path, group, scene)});
+  const bool is_mcap = path.ends_with(".mcap") || text.starts_with(kMcapMagic);
+  const auto parsed = std::make_shared<const ParsedFile>(
+      ParsedFile{content_hash(text),
+                 is_mcap ? read_mcap_trials(text, path, group, scene) : read_trials(text, path, group, scene)});
   if (kept.size() >= kMostKept) kept.clear();
   return kept[key] = parsed;
 }
@@ -113,10 +116,10 @@ void check_start_is_known(const TableReader& truth, const MotionRecording& recor
       const bool has_rates = (body.positions.empty() || !body.velocities.empty()) &&
                              (body.orientations.empty() || !body.angular_velocities.empty());
       if (!has_rates)
-        truth.at("file").refuse(
-            fmt::format("{} has no {}, so the start is not known; allowed: these columns, or truth.start_fit = N, "
-                        "which determines the start from N samples",
-                        recording.path, body.velocities.empty() ? "vx, vy, vz" : "wx, wy, wz"));
+        truth.at("file").refuse(fmt::format(
+            "{} has no {}, so the start is not known; allowed: these columns of a CSV file, or truth.start_fit = N, "
+            "which determines the start from N samples",
+            recording.path, body.velocities.empty() ? "vx, vy, vz" : "wx, wy, wz"));
     }
   }
 }

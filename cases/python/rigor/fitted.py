@@ -21,6 +21,8 @@ class FittedValue(float):
     """Of the value and its interval, as ``"N/m"``; ``"1"`` for a plain number; empty if the key has no unit of its own."""
     interval: tuple[float, float] | None
     """The 95 % interval, in `unit`; None if the data tell none."""
+    open_ends: tuple[bool, bool]
+    """Whether the lower and the upper end of `interval` are those of the range, because the data tell no end there."""
     at_bound: bool
     """The value is an end of its range, so a better one may lie beyond."""
     unknown: str
@@ -32,6 +34,7 @@ class FittedValue(float):
         value = cls(row["value"])
         value.key, value.unit, value.at_bound, value.unknown = row["key"], row["unit"], row["at_bound"], row["unknown"]
         value.interval = None if row["interval"] is None else (row["interval"][0], row["interval"][1])
+        value.open_ends = (False, False) if row["open_ends"] is None else (row["open_ends"][0], row["open_ends"][1])
         return value
 
     @property
@@ -43,7 +46,9 @@ class FittedValue(float):
         """The value with its unit, its interval and what limits it, as a sentence."""
         text = f"{self.key} = {float(self):.4g}{'' if self.unit in ('', '1') else f' {self.unit}'}"
         if self.interval is not None:
-            text += f", 95 %: {self.interval[0]:.4g} to {self.interval[1]:.4g}"
+            low, high = f"{self.interval[0]:.4g}", f"{self.interval[1]:.4g}"
+            told = {(True, False): f"at most {high}", (False, True): f"at least {low}"}
+            text += f", 95 %: {told.get(self.open_ends, f'{low} to {high}')}"
         if self.at_bound:
             text += "; at the end of its range, so a better value may lie beyond"
         return text + (f"; the data cannot tell it: {self.unknown}" if self.unknown else "")
@@ -99,6 +104,10 @@ class Fitted(Printed):
         """How many values, or sets of values, were tried."""
         self.why_no_intervals: str = self.json["why_no_intervals"]
         """Why no value has an interval, as a sentence; empty if intervals were computed."""
+        self.intervals: str = self.json["intervals"]
+        """The method of the intervals: ``"bootstrap"`` over trials, ``"profile"`` likelihood of few trials; empty without."""
+        self.caveats: list[str] = self.json["caveats"]
+        """Sentences on what the intervals rest on, as on errors that the noise does not explain."""
 
     def __getitem__(self, key: str) -> FittedValue:
         """A value by its key: ``fitted["scene.contact_default.friction"]``."""
@@ -120,6 +129,7 @@ class Fitted(Printed):
         lines = [f"{self.engine}: {self.points} values tried", *(f"  {value.told()}" for value in self.values.values())]
         if self.why_no_intervals:
             lines.append(f"  {self.why_no_intervals}")
+        lines += [f"  {caveat}" for caveat in self.caveats]
         keys, strong = list(self.values), 0.5  # only pairs that cannot be told apart well, as on the command line
         for i, row in enumerate(self.correlations):
             lines += [f"  {keys[i]} and {keys[j]} depend on each other: correlation {row[j]:.2f}" for j in range(i + 1, len(row)) if abs(row[j]) >= strong]

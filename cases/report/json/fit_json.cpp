@@ -11,10 +11,12 @@ namespace {
 Json json_of_number(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
 
 Json json_of_parameter(const FittedParameter& parameter) {
-  Json json = {{"key", parameter.key},        {"unit", parameter.unit}, {"value", parameter.number},
-               {"text", parameter.value},     {"interval", nullptr},    {"at_bound", parameter.is_at_bound},
-               {"unknown", parameter.unknown}};
-  if (parameter.interval) json["interval"] = {parameter.interval->first, parameter.interval->second};
+  Json json = {{"key", parameter.key},         {"unit", parameter.unit}, {"value", parameter.number},
+               {"text", parameter.value},      {"interval", nullptr},    {"at_bound", parameter.is_at_bound},
+               {"unknown", parameter.unknown}, {"open_ends", nullptr}};
+  if (!parameter.interval) return json;
+  json["interval"] = {parameter.interval->first, parameter.interval->second};
+  json["open_ends"] = {parameter.is_low_open, parameter.is_high_open};
   return json;
 }
 
@@ -42,7 +44,9 @@ Json fit_json(const FitInput& input, const FitResult& fit) {
           {"points", fit.points},
           {"parameters", parameters},
           {"correlations", fit.correlations},
+          {"intervals", fit.method},
           {"why_no_intervals", fit.why_no_intervals},
+          {"caveats", fit.caveats},
           {"fitted", json_of_errors(fit.training)},
           {"held_out", fit.held_out ? json_of_errors(*fit.held_out) : Json(nullptr)}};
 }

@@ -167,7 +167,7 @@ Case case_of_trial(const Case& definition, const MotionRecording& recording, std
 }
 
 TruthRow recording_truth() {
-  return {"recording", "measured motion from a CSV file, with its noise",
+  return {"recording", "measured motion from a CSV or MCAP file, with its noise",
           [](const Scene&, double) -> std::unique_ptr<Truth> {
             throw InputError("the truth 'recording' belongs to a case file, which names its file");
           }};

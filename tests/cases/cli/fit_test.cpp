@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cases/cli/program.h"
-#include "tests/cases/recorded_case.h"
+#include "tests/cases/noisy_recording.h"
 
 using namespace rigor;
 using Json = nlohmann::json;
@@ -76,6 +76,22 @@ BOOST_AUTO_TEST_CASE(text_and_json_say_the_same) {
   BOOST_TEST(start.at("interval").is_null());
   BOOST_TEST(start.at("unit") == "m/s");
   BOOST_TEST(holds(text, "the data cannot tell it: it changes nothing here"), text);
+}
+
+BOOST_AUTO_TEST_CASE(one_trial_has_an_interval_and_says_which_end_is_open) {
+  folder.write("slide.csv", test::noisy_recording(test::sliding_scene(0.3), 1, 1));
+  const std::string text = fitted({kFriction + "=0.05..0.9"}).out;
+  const Json row = Json::parse(fitted({kFriction + "=0.05..0.9"}, {"--json"}).out)[0];
+  const Json& known = row.at("parameters").at(0);
+  BOOST_TEST(row.at("intervals") == "profile");
+  BOOST_TEST(row.at("caveats").empty());
+  BOOST_TEST(known.at("open_ends") == Json({false, false}));
+  BOOST_TEST(holds(text, fmt::format("95 %: {:.4g} to {:.4g}", known.at("interval").at(0).get<double>(),
+                                     known.at("interval").at(1).get<double>())),
+             text);
+  const std::string bound = fitted({kFriction + "=0.3025..0.9"}).out;
+  BOOST_TEST(holds(bound, "95 %: at most 0.30"), bound);
+  BOOST_TEST(holds(bound, "at the end of its range"), bound);
 }
 
 BOOST_AUTO_TEST_CASE(several_engines_are_several_rows) {

@@ -79,10 +79,16 @@ def test_what_the_data_cannot_tell_is_said(tmp_path):
         found["friction"]
 
 
-def test_a_single_trial_has_no_interval(tmp_path):
+def test_a_single_trial_has_the_interval_of_its_parabola(tmp_path):
     found = rigor.fit(slide(tmp_path, trials=1), engine=VERLET, vary={FRICTION: (0.05, 0.9)}, progress=False)
-    assert found and found[FRICTION].interval is None and "1 trial took part" in found.why_no_intervals and found.correlations.shape == (0, 0)
-    assert found.why_no_intervals in repr(found) and found[FRICTION] == pytest.approx(0.3, abs=0.01)
+    # mu g/2 is the last coefficient of a parabola through 41 samples with 0.1 mm noise, of which the others are unknown, too.
+    times = np.arange(41) * 0.005
+    powers = np.stack([np.ones(41), times, 9.81 * times**2 / 2], axis=1)
+    error = 1e-4 * np.linalg.inv(powers.T @ powers)[2, 2] ** 0.5
+    low, high = found[FRICTION].interval
+    assert found and found.intervals == "profile" and found.why_no_intervals == "" and found.caveats == []
+    assert (high - low) / 2 == pytest.approx(1.96 * error, rel=0.05) and found[FRICTION] == pytest.approx(0.3, abs=3 * error)
+    assert found[FRICTION].open_ends == (False, False) and f"95 %: {low:.4g} to {high:.4g}" in repr(found)
 
 
 @pytest.mark.parametrize("options, words", [

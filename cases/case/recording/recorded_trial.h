@@ -1,0 +1,15 @@
+// What readers of recordings share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/case/recording/recording.h"
+
+namespace rigor {
+
+// Moves the trial's start to t = 0, and sets its duration. Throws InputError, beginning with the path, for a body with
+// one sample, and for bodies that begin at different times. `names`: those of the scene's bodies.
+void begin_at_zero(RecordedTrial& trial, const std::vector<std::string>& names, const std::string& path);
+
+}  // namespace rigor
