@@ -103,6 +103,7 @@ class McapParser {
   }
 
   void read_chunk(McapBytes& content) {
+    if (is_in_chunk_) content.refuse("a chunk lies in another one; allowed: schemas, channels and messages");
     content.integer<std::uint64_t>(), content.integer<std::uint64_t>();  // its first and last time
     const auto size = content.integer<std::uint64_t>();
     const auto checksum = content.integer<std::uint32_t>();
@@ -119,13 +120,16 @@ class McapParser {
     if (checksum != 0 && checksum != found)  // 0: there is none
       content.refuse("the chunk's checksum differs from its content; the file is damaged");
     McapBytes inside(records, path_, content.place() - records.size());
+    is_in_chunk_ = true;
     while (!inside.is_over()) read_record(inside);
+    is_in_chunk_ = false;
   }
 
   const std::string& path_;
   const McapReader& reader_;
   std::map<std::uint16_t, std::string> schemas_;  // names
   std::map<std::uint16_t, McapChannel> channels_;
+  bool is_in_chunk_ = false;
 };
 
 }  // namespace

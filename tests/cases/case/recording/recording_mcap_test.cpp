@@ -125,6 +125,9 @@ BOOST_AUTO_TEST_CASE(compressed_and_damaged_chunks_are_refused) {
   damaged[name - 4] = 1;  // a checksum that cannot be right
   BOOST_TEST(holds(refusal(damaged), "checksum"));
   const std::size_t records = name + 4 + 8;
+  std::string nested = whole;
+  nested[records] = 6;
+  BOOST_TEST(holds(refusal(nested), "a chunk lies in another one"));
   std::size_t length = 0;
   for (std::size_t i = 8; i > 0; --i) length = length << 8 | static_cast<unsigned char>(whole[name + 4 + i - 1]);
   const auto sum = crc32(0, reinterpret_cast<const Bytef*>(&whole[records]), static_cast<uInt>(length));
