@@ -9,10 +9,10 @@
 
 #include "cases/case/case_reader.h"
 #include "cases/case/family.h"
+#include "cases/case/program_home.h"
 #include "cases/import/import.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
-#include "core/base/program_home.h"
 
 namespace rigor {
 namespace {

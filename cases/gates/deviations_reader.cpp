@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "cases/case/case.h"
+#include "cases/case/program_home.h"
 #include "cases/gates/deviations.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
-#include "core/base/program_home.h"
 #include "core/scene/toml/table_reader.h"
 
 namespace rigor {

@@ -80,7 +80,7 @@ std::string entering_line(const Divergence& found) {
                                    : std::string("a nudge does not grow until then");
   constexpr double kMore = 1.5;  // beyond what ends of a step may add
   const char* taken =
-      injections.injected < 0 || injections.injected > kMore ? ", so contacts and joints take differences back" : "";
+      injections.injected < 0 || injections.injected > kMore ? ", so later steps take differences back" : "";
   return titled_line(
       "enters",
       fmt::format("differences of single steps, carried on by free motion, add up to {:.3g} % of the gap{}; {}{}",

@@ -1,4 +1,4 @@
-#include "core/base/program_home.h"
+#include "cases/case/program_home.h"
 
 #include <fmt/format.h>
 
