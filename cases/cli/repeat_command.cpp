@@ -98,8 +98,8 @@ class RepeatCommand : public Command {
     };
   }
 
-  // Does the work for each case. Of several cases, those that the engine lacks something for are left out, and one that
-  // fails does not stop the others. All of them are named on stderr. The exit code is that of the failures.
+  // Does the work for each case. Several cases go on where the engine lacks something for one, or where one fails. All
+  // such cases are named on stderr. The exit code is that of the failures.
   static int for_each(const std::vector<Case>& cases, const Lacks& lacks,
                       const std::function<void(const Case&)>& work) {
     if (cases.size() == 1) return work(cases.front()), kGood;

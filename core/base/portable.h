@@ -5,8 +5,8 @@
 
 namespace rigor::portable {
 
-// Of an angle [rad]. From 1e15 on, where a double is not known to a turn, the angle is taken modulo the double next to
-// 2 pi.
+// Of an angle [rad]. An angle beyond 1e15 is taken modulo the double next to 2 pi, so the result is that of another
+// angle.
 double sin(double x);
 double cos(double x);
 // The angle [rad] of the point (x, y), from -pi to pi, with the signs of zeros and infinities as in C.

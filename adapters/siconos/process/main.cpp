@@ -107,19 +107,16 @@ class Worlds {
     if (is_whole) out["ok"] = true;
     return out;
   }
-  // A point that two parts of a step have is given twice: forces of a pair are sums.
   static Json contacts(const SiconosWorld& world) {
     const auto list = [](const Vec3& v) { return Json{v.x(), v.y(), v.z()}; };
     Json contacts = Json::array();
-    if (world.last_step() > 0) {
-      for (const ContactImpulse& at : world.contact_impulses()) {
-        contacts.push_back({{"a", at.a},
-                            {"b", at.b},
-                            {"point", list(at.point)},
-                            {"normal", list(at.normal)},
-                            {"gap", at.gap},
-                            {"force", list(at.impulse / world.last_step())}});
-      }
+    for (const ReportedContact& at : world.contacts()) {
+      contacts.push_back({{"a", at.a},
+                          {"b", at.b},
+                          {"point", list(at.point)},
+                          {"normal", list(at.normal)},
+                          {"gap", at.gap},
+                          {"force", list(at.force)}});
     }
     return {{"ok", true}, {"contacts", contacts}};
   }

@@ -35,13 +35,13 @@ class ContactPoint : public NewtonEuler3DR {
   }
   // At the last step's end. Siconos has the bodies in the same order, the normal towards the first, and in `lambda` the
   // impulse along the rows of the contact's frame.
-  ContactImpulse impulse(const SiconosVector& lambda) const {
-    ContactImpulse found{0, 0, {}, {}, 0, Vec3::Zero()};
+  ReportedContact report(const SiconosVector& lambda, double dt) const {
+    ReportedContact found;
     for (unsigned k = 0; k < 3; ++k) {
       found.point[k] = 0.5 * ((*_Pc1)(k) + (*_Pc2)(k));
       found.normal[k] = -(*_Nc)(k);
       found.gap += (*_Nc)(k) * ((*_Pc1)(k) - (*_Pc2)(k));
-      for (unsigned row = 0; row < 3; ++row) found.impulse[k] -= (*_jachqT)(row, k) * lambda(row);
+      for (unsigned row = 0; row < 3; ++row) found.force[k] -= (*_jachqT)(row, k) * lambda(row) / dt;
     }
     return found;
   }
@@ -79,11 +79,11 @@ void Contacts::updateInteractions(SP::Simulation simulation) {
   }
 }
 
-void Contacts::add_impulses(std::vector<ContactImpulse>& impulses) const {
+void Contacts::add_forces(double dt, std::vector<ReportedContact>& contacts) const {
   for (const auto& [key, kept] : kept_) {
-    ContactImpulse found = kept.point->impulse(*kept.interaction->lambda(1));
+    ReportedContact found = kept.point->report(*kept.interaction->lambda(1), dt);
     found.a = static_cast<int>(key[0]), found.b = static_cast<int>(key[1]);
-    impulses.push_back(found);
+    contacts.push_back(found);
   }
 }
 

@@ -10,18 +10,12 @@
 
 #include "adapters/siconos/process/siconos_bodies.h"
 #include "core/dynamics/collision/broad_phase.h"
+#include "core/engine/capabilities.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor::siconos {
 
 class ContactPoint;
-
-struct ContactImpulse {
-  int a, b;
-  Vec3 point, normal;  // m, in W; unit, from a to b
-  double gap;          // m
-  Vec3 impulse;        // N s, on b, in W
-};
 
 class Contacts : public InteractionManager {
  public:
@@ -31,8 +25,8 @@ class Contacts : public InteractionManager {
   void set_step(double dt) { dt_ = dt; }  // s
   // Called by Siconos in each step, behind a first guess of the positions at its end.
   void updateInteractions(SP::Simulation simulation) override;
-  // Adds what its contacts carried in the step that Siconos has just computed.
-  void add_impulses(std::vector<ContactImpulse>& impulses) const;
+  // Adds what its contacts carried in the step that Siconos has just computed, as means over `dt` [s].
+  void add_forces(double dt, std::vector<ReportedContact>& contacts) const;
   void forget() { kept_.clear(); }  // of a simulation that is no more
 
  private:

@@ -109,15 +109,15 @@ void SiconosWorld::look_back() {
 void SiconosWorld::step(double dt) {
   const double begin = clock_.time();
   clock_.advance(dt);
-  warning_.clear(), impulses_.clear();
-  last_step_ = dt;
+  warning_.clear(), reports_.clear();
   bodies_->loads().for_each_smooth_part(begin, dt, [&](double from, double length) {
-    if (lost_body() < 0) step_part(from, length);
+    if (lost_body() < 0) step_part(from, length, dt);
   });
 }
 
-// Loads begin or end between two simulations, because a simulation remembers the forces at its last step's end.
-void SiconosWorld::step_part(double from, double dt) {
+// `whole`: s, the step that this is a part of. Loads begin or end between two simulations, because a simulation
+// remembers the forces at its last step's end.
+void SiconosWorld::step_part(double from, double dt, double whole) {
   const double middle = from + 0.5 * dt;
   try {
     const bool has_switched = bodies_->loads().next_switch(middle_, middle) != middle;
@@ -126,7 +126,7 @@ void SiconosWorld::step_part(double from, double dt) {
     if (dt != dt_ || has_switched) start(from, dt);
     last_answer = 0;
     simulation_->computeOneStep();
-    contacts_->add_impulses(impulses_);
+    contacts_->add_forces(whole, reports_);
     simulation_->nextStep();
     bodies_->gather();
     look_back();

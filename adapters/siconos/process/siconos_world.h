@@ -29,17 +29,16 @@ class SiconosWorld {
   BodyColumns state() const { return bodies_->state(); }
   // Why the last step is less accurate than the method promises; empty if it is not.
   const std::string& warning() const { return warning_; }
-  // Of the contacts of the last step, once for each of its parts.
-  const std::vector<ContactImpulse>& contact_impulses() const { return impulses_; }
-  double last_step() const { return last_step_; }  // s
-  int lost_body() const;                           // the first whose state is not finite; -1 for none
+  // Of the last step. A point of two of its parts is there twice: forces of a pair are sums.
+  const std::vector<ReportedContact>& contacts() const { return reports_; }
+  int lost_body() const;  // the first whose state is not finite; -1 for none
   std::vector<std::pair<std::string, std::string>> settings_in_force() const;
 
  private:
   void start(double time, double dt);
   void set_newton();
   void look_back();
-  void step_part(double from, double dt);
+  void step_part(double from, double dt, double whole);
   std::shared_ptr<LinearOSNS> contact_problem();
 
   Scene scene_;
@@ -52,8 +51,7 @@ class SiconosWorld {
   std::shared_ptr<NonSmoothDynamicalSystem> system_;
   double dt_ = 0, middle_ = 0;  // s, of the last step
   std::string warning_;
-  std::vector<ContactImpulse> impulses_;
-  double last_step_ = 0;  // s
+  std::vector<ReportedContact> reports_;
   Clock clock_;
 };
 

@@ -27,7 +27,7 @@ struct Injections {
   std::vector<Injection> steps;  // by time; of all common steps, or of a selection
   bool has_all_steps = true;
   // Part of the gap at the parting that all one-step differences make by free motion. 1: the gap is injected. Much
-  // less: the motion amplifies it. Beyond 1 or negative: contacts and joints take differences back.
+  // less: the motion amplifies it. Beyond 1 or negative: later steps take differences back.
   double injected = 0;
   double growth = 0;         // 1/s: Lyapunov's exponent over the time until the parting, from a start nudged by 1e-8
   double growth_factor = 1;  // of a nudge, until the parting

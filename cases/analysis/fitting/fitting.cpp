@@ -194,9 +194,9 @@ class Fitting {
                        [&](const FitTrial& one) { return probe_.recording_of(one.of_case) != nullptr; });
   }
 
-  void tell(const BoxPoint& best, std::size_t i, double low, double high, FittedParameter& parameter) const {
-    parameter.interval = {number_at(best, i, low), number_at(best, i, high)};
-    parameter.is_low_open = low <= 0, parameter.is_high_open = high >= 1;
+  void tell(const BoxPoint& best, std::size_t i, const ProfileAxis& axis, FittedParameter& parameter) const {
+    parameter.interval = {number_at(best, i, axis.low), number_at(best, i, axis.high)};
+    parameter.is_low_open = axis.is_low_open, parameter.is_high_open = axis.is_high_open;
   }
 
   void tell_profile(const TrialProfile& profile, FitResult& fit) {
@@ -211,8 +211,7 @@ class Fitting {
       if (axis.is_low_open && axis.is_high_open) {
         parameter.unknown = "no value of its range is unlikely";
       } else {
-        tell(profile.best, i, axis.low, axis.high, parameter);
-        parameter.is_low_open = axis.is_low_open, parameter.is_high_open = axis.is_high_open;
+        tell(profile.best, i, axis, parameter);
       }
     }
   }
@@ -239,7 +238,7 @@ class Fitting {
       constexpr double kWhole = 0.9;  // of the range
       if (parameter.unknown.empty() && (!axis.is_curved || axis.high - axis.low > kWhole))
         parameter.unknown = "the interval is the whole range";
-      if (parameter.unknown.empty()) tell(best.at, i, axis.low, axis.high, parameter);
+      if (parameter.unknown.empty()) tell(best.at, i, {axis.low, axis.high, axis.low <= 0, axis.high >= 1}, parameter);
     }
     fit.method = "bootstrap", fit.correlations = bootstrap.correlations;
   }

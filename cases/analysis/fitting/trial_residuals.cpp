@@ -4,32 +4,18 @@
 
 #include "cases/metrics/measures/recorded/recorded_gaps.h"
 #include "cases/runner/simulate.h"
+#include "cases/truth/solved/pose_interpolation.h"
 #include "core/base/rotation_vector.h"
 
 namespace rigor {
 namespace {
 
-// Between two values with rates, s from 0 to 1 over h seconds.
-Vec3 cubic(const Vec3& a, const Vec3& rate_a, const Vec3& b, const Vec3& rate_b, double s, double h) {
-  const double r = 1 - s;
-  return r * r * ((1 + 2 * s) * a + s * h * rate_a) + s * s * ((1 + 2 * r) * b - r * h * rate_b);
-}
-
-struct Pose {
-  Vec3 position;
-  Quat orientation;
-};
-
-// The run's pose at t, which lies between its samples `n` and n + 1.
-Pose pose_between(const Trajectory& run, std::size_t n, std::size_t body, double t) {
-  const BodyState a = run.samples[n].bodies.columns().body(body), b = run.samples[n + 1].bodies.columns().body(body);
-  const double h = run.samples[n + 1].time - run.samples[n].time;
-  const double s = std::clamp((t - run.samples[n].time) / h, 0.0, 1.0);
-  const Vec3 turn = rotation_vector_of(b.orientation * a.orientation.conjugate());
-  const Vec3 part =
-      cubic(Vec3::Zero(), a.angular_velocity, turn, rate_of_rotation_vector(turn, b.angular_velocity), s, h);
-  return {cubic(a.position, a.velocity, b.position, b.velocity, s, h),
-          (rotation_by(part) * a.orientation).normalized()};
+// The run's state at t, which lies between its samples `n` and n + 1.
+BodyState state_at(const Trajectory& run, std::size_t n, std::size_t body, double t) {
+  const Sample &from = run.samples[n], &to = run.samples[n + 1];
+  const double h = to.time - from.time;
+  return between(from.bodies.columns().body(body), to.bodies.columns().body(body), h,
+                 std::clamp((t - from.time) / h, 0.0, 1.0));
 }
 
 void append(std::vector<double>& all, const Vec3& gap, double noise) {
@@ -45,7 +31,7 @@ void compare(const Trajectory& run, const RecordedBody& body, const MotionRecord
     while (n + 2 < run.samples.size() && run.samples[n + 1].time < t) ++n;
     const double end = run.samples[n + 1].time;
     if (t > end + kRounding * (end - run.samples[n].time)) return;
-    const Pose pose = pose_between(run, n, i, t);
+    const BodyState pose = state_at(run, n, i, t);
     if (!body.positions.empty()) append(out.positions, pose.position - body.positions[k], recording.position_noise);
     if (!body.orientations.empty())
       append(out.rotations, rotation_vector_of(pose.orientation * body.orientations[k].conjugate()),

@@ -11,9 +11,6 @@
 namespace rigor {
 namespace {
 
-constexpr unsigned char kMcapFooter = 0x02, kMcapSchema = 0x03, kMcapChannel = 0x04, kMcapMessage = 0x05,
-                        kMcapChunk = 0x06;
-
 // Bytes that are read from front to back.
 class McapBytes {
  public:
@@ -57,31 +54,32 @@ class McapParser {
 
   void read_file(std::string_view file) {
     McapBytes bytes(file, path_, 0);
-    if (bytes.take(std::min(file.size(), kMcapMagic.size())) != kMcapMagic)
+    if (bytes.take(std::min(file.size(), mcap::kMagic.size())) != mcap::kMagic)
       throw InputError(path_ + ": is no MCAP file; allowed: one that begins with its magic bytes");
     while (!read_record(bytes)) {
     }
-    if (bytes.rest() != kMcapMagic) bytes.refuse("the magic bytes at the end are missing; allowed: a whole MCAP file");
+    if (bytes.rest() != mcap::kMagic)
+      bytes.refuse("the magic bytes at the end are missing; allowed: a whole MCAP file");
   }
 
  private:
   // Returns whether it was the last one.
   bool read_record(McapBytes& bytes) {
-    const auto opcode = bytes.integer<unsigned char>();
+    const auto opcode = bytes.integer<char>();
     const auto size = bytes.integer<std::uint64_t>();
     const std::size_t place = bytes.place();
     McapBytes content(bytes.take(size), path_, place);
-    if (opcode == kMcapSchema) {
+    if (opcode == mcap::kSchema) {
       const auto id = content.integer<std::uint16_t>();
       schemas_[id] = content.text();
-    } else if (opcode == kMcapChannel) {
+    } else if (opcode == mcap::kChannel) {
       read_channel(content);
-    } else if (opcode == kMcapMessage) {
+    } else if (opcode == mcap::kMessage) {
       read_message(content);
-    } else if (opcode == kMcapChunk) {
+    } else if (opcode == mcap::kChunk) {
       read_chunk(content);
     }
-    return opcode == kMcapFooter;
+    return opcode == mcap::kFooter;
   }
 
   // The summary at the end repeats channels.

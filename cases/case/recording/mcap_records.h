@@ -8,7 +8,22 @@
 
 namespace rigor {
 
-inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
+// Of a file's form, for readers and writers.
+namespace mcap {
+inline constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+enum Opcode : char {
+  kHeader = 0x01,
+  kFooter = 0x02,
+  kSchema = 0x03,
+  kChannel = 0x04,
+  kMessage = 0x05,
+  kChunk = 0x06,
+  kMessageIndex = 0x07,
+  kChunkIndex = 0x08,
+  kStatistics = 0x0b,
+  kDataEnd = 0x0f
+};
+}  // namespace mcap
 
 struct McapChannel {
   std::string topic, encoding, schema;  // the schema's name

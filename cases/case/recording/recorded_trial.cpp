@@ -10,6 +10,14 @@
 
 namespace rigor {
 
+RecordedBody& samples_of(RecordedTrial& trial, int body) {
+  std::vector<RecordedBody>& bodies = trial.bodies;
+  const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const auto& one) { return one.body == body; });
+  if (known != bodies.end()) return *known;
+  bodies.emplace_back().body = body;
+  return bodies.back();
+}
+
 void begin_at_zero(RecordedTrial& trial, const std::vector<std::string>& names, const std::string& path) {
   const std::string of = trial.name.empty() ? "the recording" : fmt::format("trial '{}'", shown(trial.name));
   double start = trial.bodies.front().times.front();

@@ -8,6 +8,12 @@
 
 namespace rigor {
 
+// By how much the length of a quaternion may differ from one: written with four digits it does by 2e-4.
+inline constexpr double kUnitLength = 1e-3;
+
+// The samples of a body of the scene, which are added where there are none yet.
+RecordedBody& samples_of(RecordedTrial& trial, int body);
+
 // Moves the trial's start to t = 0, and sets its duration. Throws InputError, beginning with the path, for a body with
 // one sample, and for bodies that begin at different times. `names`: those of the scene's bodies.
 void begin_at_zero(RecordedTrial& trial, const std::vector<std::string>& names, const std::string& path);

@@ -22,7 +22,6 @@ namespace {
 using CellTexts = std::vector<std::string_view>;
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
-constexpr double kUnit = 1e-3;  // a quaternion written with four digits is a unit quaternion to 2e-4
 
 // A vector or a quaternion: either all of its columns are in the file or none.
 template <std::size_t N>
@@ -153,7 +152,7 @@ class RecordingFile {
   Quat quaternion(const CsvRow& row) const {
     const auto& c = orientation_.columns;
     const Quat q(number(row, c[0]), number(row, c[1]), number(row, c[2]), number(row, c[3]));
-    if (std::abs(q.norm() - 1) > kUnit)
+    if (std::abs(q.norm() - 1) > kUnitLength)
       refuse(place_of(row, c[0]), fmt::format("found a quaternion of the length {:.4g}; allowed: a unit quaternion, "
                                               "(w, x, y, z) from the body to the world",
                                               q.norm()));
@@ -193,12 +192,7 @@ class RecordingFile {
       refuse(place_of(row, group_), fmt::format("{} is empty; allowed: the name of a trial", header_[group_]));
     const auto [place, is_new] = places_.try_emplace(name, trials_.size());
     if (is_new) trials_.push_back({name, {}, 0});
-    std::vector<RecordedBody>& bodies = trials_[place->second].bodies;
-    const int body = body_of(row);
-    const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const auto& one) { return one.body == body; });
-    if (known != bodies.end()) return *known;
-    bodies.emplace_back().body = body;
-    return bodies.back();
+    return rigor::samples_of(trials_[place->second], body_of(row));
   }
 
   [[noreturn]] void refuse(std::size_t at, const std::string& fault) const {

@@ -47,14 +47,15 @@ class McapRecording {
   }
 
  private:
-  // Of several channels with transforms, that of the usual topic counts.
+  // The usual topic counts, if several channels have transforms. What came from another one before is dropped.
   void meet(const McapChannel& channel) {
     channels_.push_back(fmt::format("{} ({}, {})", channel.topic, channel.schema, channel.encoding));
     if (channel.schema != kTransforms || channel.encoding != "json") return;
     if (!topic_.empty() && topic_ != channel.topic && topic_ != kTransformsTopic && channel.topic != kTransformsTopic)
       throw InputError(fmt::format("{}: both '{}' and '{}' have transforms; allowed: one such channel, or '{}'", path_,
                                    shown(topic_), shown(channel.topic), kTransformsTopic));
-    if (topic_ != kTransformsTopic) topic_ = channel.topic;
+    if (topic_ == channel.topic || topic_ == kTransformsTopic) return;
+    topic_ = channel.topic, trial_ = {};
   }
 
   void add(const McapMessage& message) {
@@ -74,27 +75,18 @@ class McapRecording {
                          shown(listed(names_), 400)));
     if (parent != kWorldFrame)
       refuse(fmt::format("'{}' is placed in the frame '{}'; allowed: '{}'", shown(name), shown(parent), kWorldFrame));
-    RecordedBody& samples = samples_of(body->second);
+    RecordedBody& samples = samples_of(trial_, body->second);
     const double time = time_of(transform, logged);
     if (!samples.times.empty() && !(time > samples.times.back()))
       refuse(fmt::format("found the time {} s of '{}' after {} s; allowed: times that rise", time, shown(name),
                          samples.times.back()));
     const Json &place = part(transform, "translation"), &turn = part(transform, "rotation");
     const Quat q(number(turn, "w"), number(turn, "x"), number(turn, "y"), number(turn, "z"));
-    constexpr double kUnitLength = 1e-3;  // as in a CSV file
     if (std::abs(q.norm() - 1) > kUnitLength)
       refuse(fmt::format("found a quaternion of the length {:.4g}; allowed: a unit quaternion", q.norm()));
     samples.times.push_back(time);
     samples.positions.emplace_back(number(place, "x"), number(place, "y"), number(place, "z"));
     samples.orientations.push_back(q.normalized());
-  }
-
-  RecordedBody& samples_of(int body) {
-    auto& bodies = trial_.bodies;
-    const auto known = std::find_if(bodies.begin(), bodies.end(), [&](const auto& one) { return one.body == body; });
-    if (known != bodies.end()) return *known;
-    bodies.emplace_back().body = body;
-    return bodies.back();
   }
 
   // s; without a stamp of its own a transform has the time at which its message was logged.

@@ -53,7 +53,7 @@ std::shared_ptr<const ParsedFile> parsed_file(const std::string& path, const std
   for (const Body& body : scene.bodies) key += fmt::format("\n{} {}", body.name, body.fixed);
   if (const auto found = kept.find(key); found != kept.end()) return found->second;
   const std::string text = read_text_file(path);
-  const bool is_mcap = path.ends_with(".mcap") || text.starts_with(kMcapMagic);
+  const bool is_mcap = path.ends_with(".mcap") || text.starts_with(mcap::kMagic);
   const auto parsed = std::make_shared<const ParsedFile>(
       ParsedFile{content_hash(text),
                  is_mcap ? read_mcap_trials(text, path, group, scene) : read_trials(text, path, group, scene)});

@@ -1,24 +1,11 @@
 #include "cases/report/trace/mcap_file.h"
 
+#include "cases/case/recording/mcap_records.h"
+
 namespace rigor {
 namespace {
 
 constexpr std::size_t kChunkSize = 1 << 20;  // bytes, uncompressed as they stand
-const std::string kMagic = "\x89MCAP0\r\n";
-
-enum Opcode : char {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kMessageIndex = 0x07,
-  kChunkIndex = 0x08,
-  kStatistics = 0x0b,
-  kDataEnd = 0x0f
-};
-
 template <typename Integer>
 std::string bytes_of(Integer value) {
   std::string bytes;
@@ -29,7 +16,7 @@ std::string bytes_of(Integer value) {
 
 std::string sized(const std::string& bytes) { return bytes_of(static_cast<std::uint32_t>(bytes.size())) + bytes; }
 
-std::string record(Opcode opcode, const std::string& content) {
+std::string record(mcap::Opcode opcode, const std::string& content) {
   return std::string(1, opcode) + bytes_of(static_cast<std::uint64_t>(content.size())) + content;
 }
 
@@ -40,13 +27,16 @@ std::string McapFile::written(std::string bytes) {
   return bytes;
 }
 
-std::string McapFile::begin() { return written(kMagic + record(kHeader, sized("") + sized("rigor"))); }
+std::string McapFile::begin() {
+  return written(std::string(mcap::kMagic) + record(mcap::kHeader, sized("") + sized("rigor")));
+}
 
 std::uint16_t McapFile::add_channel(const std::string& topic, const std::string& schema_name,
                                     const std::string& json_schema) {
   const auto id = static_cast<std::uint16_t>(channels_.size() + 1);  // of a schema 0 means none
-  channels_.push_back({record(kSchema, bytes_of(id) + sized(schema_name) + sized("jsonschema") + sized(json_schema)),
-                       record(kChannel, bytes_of(id) + bytes_of(id) + sized(topic) + sized("json") + sized(""))});
+  channels_.push_back(
+      {record(mcap::kSchema, bytes_of(id) + sized(schema_name) + sized("jsonschema") + sized(json_schema)),
+       record(mcap::kChannel, bytes_of(id) + bytes_of(id) + sized(topic) + sized("json") + sized(""))});
   chunk_ += channels_.back().schema + channels_.back().definition;
   return id;
 }
@@ -57,8 +47,8 @@ std::string McapFile::add(std::uint16_t channel, std::uint64_t nanoseconds, cons
   last_time_ = chunk_last_ = nanoseconds;
   chunk_entries_[channel].emplace_back(nanoseconds, chunk_.size());
   const auto sequence = static_cast<std::uint32_t>(counts_[channel]++);
-  chunk_ +=
-      record(kMessage, bytes_of(channel) + bytes_of(sequence) + bytes_of(nanoseconds) + bytes_of(nanoseconds) + json);
+  chunk_ += record(mcap::kMessage,
+                   bytes_of(channel) + bytes_of(sequence) + bytes_of(nanoseconds) + bytes_of(nanoseconds) + json);
   return chunk_.size() >= kChunkSize ? close_chunk() : "";
 }
 
@@ -67,15 +57,15 @@ std::string McapFile::close_chunk() {
   ChunkIndex index{chunk_first_, chunk_last_, at_, 0, 0, chunk_.size(), {}};
   // No checksum and no compression.
   const std::string chunk =
-      record(kChunk, bytes_of(index.first_time) + bytes_of(index.last_time) + bytes_of(index.records_size) +
-                         bytes_of(std::uint32_t{0}) + sized("") + bytes_of(index.records_size) + chunk_);
+      record(mcap::kChunk, bytes_of(index.first_time) + bytes_of(index.last_time) + bytes_of(index.records_size) +
+                               bytes_of(std::uint32_t{0}) + sized("") + bytes_of(index.records_size) + chunk_);
   index.size = chunk.size();
   std::string indices;
   for (const auto& [channel, entries] : chunk_entries_) {
     index.index_at[channel] = at_ + chunk.size() + indices.size();
     std::string rows;
     for (const auto& [time, offset] : entries) rows += bytes_of(time) + bytes_of(offset);
-    indices += record(kMessageIndex, bytes_of(channel) + sized(rows));
+    indices += record(mcap::kMessageIndex, bytes_of(channel) + sized(rows));
   }
   index.index_size = indices.size();
   chunks_.push_back(index);
@@ -85,26 +75,28 @@ std::string McapFile::close_chunk() {
 
 std::string McapFile::end() {
   std::string text = close_chunk();
-  text += written(record(kDataEnd, bytes_of(std::uint32_t{0})));
+  text += written(record(mcap::kDataEnd, bytes_of(std::uint32_t{0})));
   const std::uint64_t summary_at = at_;
   std::string summary;
   for (const Channel& channel : channels_) summary += channel.schema + channel.definition;
   for (const ChunkIndex& chunk : chunks_) {
     std::string offsets;
     for (const auto& [channel, at] : chunk.index_at) offsets += bytes_of(channel) + bytes_of(at);
-    summary += record(kChunkIndex, bytes_of(chunk.first_time) + bytes_of(chunk.last_time) + bytes_of(chunk.at) +
-                                       bytes_of(chunk.size) + sized(offsets) + bytes_of(chunk.index_size) + sized("") +
-                                       bytes_of(chunk.records_size) + bytes_of(chunk.records_size));
+    summary += record(mcap::kChunkIndex, bytes_of(chunk.first_time) + bytes_of(chunk.last_time) + bytes_of(chunk.at) +
+                                             bytes_of(chunk.size) + sized(offsets) + bytes_of(chunk.index_size) +
+                                             sized("") + bytes_of(chunk.records_size) + bytes_of(chunk.records_size));
   }
   std::string counts;
   for (const auto& [channel, count] : counts_) counts += bytes_of(channel) + bytes_of(count);
   const auto channels = static_cast<std::uint32_t>(channels_.size());
-  summary += record(kStatistics, bytes_of(messages_) + bytes_of(static_cast<std::uint16_t>(channels)) +
-                                     bytes_of(channels) + bytes_of(std::uint32_t{0}) + bytes_of(std::uint32_t{0}) +
-                                     bytes_of(static_cast<std::uint32_t>(chunks_.size())) + bytes_of(first_time_) +
-                                     bytes_of(last_time_) + sized(counts));
+  summary +=
+      record(mcap::kStatistics, bytes_of(messages_) + bytes_of(static_cast<std::uint16_t>(channels)) +
+                                    bytes_of(channels) + bytes_of(std::uint32_t{0}) + bytes_of(std::uint32_t{0}) +
+                                    bytes_of(static_cast<std::uint32_t>(chunks_.size())) + bytes_of(first_time_) +
+                                    bytes_of(last_time_) + sized(counts));
   return text + summary +
-         record(kFooter, bytes_of(summary_at) + bytes_of(std::uint64_t{0}) + bytes_of(std::uint32_t{0})) + kMagic;
+         record(mcap::kFooter, bytes_of(summary_at) + bytes_of(std::uint64_t{0}) + bytes_of(std::uint32_t{0})) +
+         std::string(mcap::kMagic);
 }
 
 }  // namespace rigor

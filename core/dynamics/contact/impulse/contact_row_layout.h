@@ -43,7 +43,7 @@ class ContactRowLayout {
 
   // Adds the impulse of each constraint, on its body a, to its place in `impulses` [N s, in W].
   void add_impulses(const std::vector<ContactConstraint>& constraints, Vec3* impulses) const;
-  // Where the rows of so many constraints keep their normal impulses [N s], until the next assign().
+  // The places at which the rows of so many constraints keep their normal impulses [N s], until the next assign().
   std::vector<const double*> normal_impulses(std::size_t constraints) const;
   // The constraint that a row stands for; `first` is the row's element of column 0.
   std::size_t constraint_of(const double* first) const;

@@ -108,6 +108,19 @@ BOOST_AUTO_TEST_CASE(a_file_that_is_cut_off_anywhere_is_refused) {
   }
 }
 
+// Samples of two topics are two motions.
+BOOST_AUTO_TEST_CASE(transforms_of_the_usual_topic_replace_those_of_another_one_before) {
+  McapFile file;
+  std::string bytes = file.begin();
+  double time = 0;
+  for (const char* topic : {"/camera", "/tf"}) {
+    const auto channel = file.add_channel(topic, "foxglove.FrameTransforms", "{}");
+    for (int n = 0; n < 2; ++n, time += 0.1) bytes += file.add(channel, 0, transforms(time, "cube"));
+  }
+  const auto trials = trials_in(bytes + file.end(), one_cube());
+  BOOST_TEST(trials[0].bodies[0].times.size() == 2u);
+}
+
 // A chunk's header: opcode 6 and its length, two times, the size, the checksum, then the compression's name.
 BOOST_AUTO_TEST_CASE(compressed_and_damaged_chunks_are_refused) {
   const std::string whole = file_of({transforms(0, "cube"), transforms(0.1, "cube")});
