@@ -29,15 +29,28 @@ std::vector<Hypothesis> of_table() {
   return all;
 }
 
+// By view. A mistake that starts each step anew moves bodies by other roundings even where it changes nothing else.
+std::vector<bool> idle_views(const Hypothesis& hypothesis, const std::vector<Sight>& bases,
+                             const std::vector<Observation>& observations) {
+  constexpr double kInvisible = 0.01;  // of the smallest distance that counts
+  std::vector<bool> is_idle;
+  for (std::size_t v = 0; v < bases.size(); ++v) {
+    const Sight &base = bases[v], &moved = hypothesis.sights[v];
+    is_idle.push_back(base.why.empty() && moved.why.empty() && base.states.size() == moved.states.size());
+  }
+  for (const Observation& observation : observations) {
+    const std::size_t v = observation.view_index();
+    const Sight& moved = hypothesis.sights[v];
+    if (!(observation.distances(moved, moved).predicted <= kInvisible * observation.tolerance())) is_idle[v] = false;
+  }
+  return is_idle;
+}
+
 // Some engines get their loads as wrenches, which Rigor computes from the state that the engine reports. A wrong report
 // then also changes the motion. Such a mistake is compared in the loaded state alone, before any load acts.
 bool is_fed_back(const Fault& fault, const Scene& scene, const EngineInfo& engine) {
   const bool tells_wrongly = fault.read || fault.reads_late;
   return tells_wrongly && engine.features.contains(Feature::wrench) && !(scene.springs.empty() && scene.forces.empty());
-}
-
-Hypothesis pair_of(const Hypothesis& first, const Hypothesis& second) {
-  return {std::make_shared<Fault>(combined(*first.fault, *second.fault)), {first.names[0], second.names[0]}, {}};
 }
 
 }  // namespace
@@ -83,10 +96,18 @@ void MistakeFinder::add_chaos(const Table& table, const Engine& engine, std::vec
   for (std::size_t n = 0; n < of.size(); ++n) moved[of[n]].coarse = motions[n].states;
 }
 
-std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector<Hypothesis> hypotheses) const {
+std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector<Hypothesis> hypotheses,
+                                                 bool only_smooth) const {
+  const auto is_asked = [&](const View& view, const Sight& sight) {
+    const bool is_of_contacts = view.can_touch && view.kind == View::Kind::accurate;
+    return sight.source == Sight::Source::none && !(only_smooth && is_of_contacts);
+  };
   std::vector<MotionTask> tasks;
-  for (const Hypothesis& hypothesis : hypotheses) {
-    for (const View& view : table.views) {
+  for (Hypothesis& hypothesis : hypotheses) {
+    hypothesis.sights.resize(table.views.size());
+    for (std::size_t v = 0; v < table.views.size(); ++v) {
+      const View& view = table.views[v];
+      if (!is_asked(view, hypothesis.sights[v])) continue;
       for (MotionTask& task :
            tasks_of(view, probes_[view.probe], engines_.find(view.base.engine), view.base.settings, hypothesis.fault))
         tasks.push_back(std::move(task));
@@ -96,11 +117,11 @@ std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector
   const EngineInfo& engine = engines_.info_of(run_.engine);
   std::size_t at = 0;
   for (Hypothesis& hypothesis : hypotheses) {
-    for (const View& view : table.views) {
-      const bool is_left_out = is_fed_back(*hypothesis.fault, *probes_[view.probe].scene, engine);
-      hypothesis.sights.push_back(seen(view, motions, at));
-      hypothesis.sights.back().as_loaded_alone = is_left_out;
-      at += view.dt.size();
+    for (std::size_t v = 0; v < table.views.size(); ++v) {
+      const View& view = table.views[v];
+      Sight& sight = hypothesis.sights[v];
+      if (is_asked(view, sight)) sight = seen(view, motions, at), at += view.dt.size();
+      sight.as_loaded_alone = is_fed_back(*hypothesis.fault, *probes_[view.probe].scene, engine);
     }
   }
   return hypotheses;
@@ -114,6 +135,8 @@ const MistakeFinder::Table& MistakeFinder::table_for(const RunName* of_points) {
   table.bases = sights(table, nullptr, nullptr);
   table.observations = observations_of(table.views, table.bases, probes_);
   table.hypotheses = simulated(table, of_table());
+  for (const Hypothesis& hypothesis : table.hypotheses)
+    table.is_idle.push_back(idle_views(hypothesis, table.bases, table.observations));
   return tables_.emplace(key, std::move(table)).first->second;  // whole, or not at all
 }
 
@@ -148,7 +171,8 @@ namespace {
 // A mistake of some amount, and how well its motion has the shape of the engine's error: the cosine of the two.
 struct Candidate {
   std::size_t row;  // of the table
-  double cosine;
+  Trace::Fit fit;
+  double cosine;  // not negative: too little is too much by a negative amount
   Hypothesis hypothesis;
 };
 
@@ -180,18 +204,21 @@ std::vector<Hypothesis> MistakeFinder::larger_amounts(const Trace& trace, const 
   for (std::size_t row = 0; row < table.hypotheses.size(); ++row) {
     const Hypothesis& hypothesis = table.hypotheses[row];
     if (!hypothesis.fault->by) continue;
-    const double cosine = std::abs(trace.fit(hypothesis).cosine);
-    if (cosine > kSomething) found.push_back({row, cosine, hypothesis});
+    const Trace::Fit fit = trace.fit(hypothesis);
+    const double cosine = std::abs(fit.cosine);
+    if (cosine > kSomething) found.push_back({row, fit, cosine, hypothesis});
   }
-  std::vector<Hypothesis> larger;
+  std::vector<Hypothesis> larger, all;
   for (const Candidate& candidate : best_few(std::move(found), kMost)) {
     const Fault& fault = *candidate.hypothesis.fault;
     for (const double times : {10.0, 100.0, 1000.0, -100.0}) {
       const auto made = std::make_shared<Fault>(fault.by(times * fault.amount));
-      larger.push_back({made, {made->name}, {}});
+      (candidate.fit.is_smooth ? larger : all).push_back({made, {made->name}, {}});
     }
   }
-  return simulated(table, std::move(larger));
+  larger = simulated(table, std::move(larger), true);
+  for (Hypothesis& one : simulated(table, std::move(all))) larger.push_back(std::move(one));
+  return larger;
 }
 
 // Mistakes whose motion has the shape of the error are scaled until they fit it.
@@ -205,12 +232,13 @@ void MistakeFinder::add_amounts(const Trace& trace, const Table& table, std::vec
   std::vector<Candidate> found;
   for (std::size_t n = 0; n < tried.size(); ++n) {
     if (!tried[n].fault->by) continue;
-    const double cosine = std::abs(trace.fit(tried[n]).cosine);  // too little is too much by a negative amount
+    const Trace::Fit fit = trace.fit(tried[n]);
+    const double cosine = std::abs(fit.cosine);
     // The amounts of one row are one row: they differ by their number alone.
     const auto row = std::find_if(tried.begin(), tried.end(), [&](const Hypothesis& other) {
       return other.fault->by && other.fault->by(1).name == tried[n].fault->by(1).name;
     });
-    if (cosine > kSameShape) found.push_back({static_cast<std::size_t>(row - tried.begin()), cosine, tried[n]});
+    if (cosine > kSameShape) found.push_back({static_cast<std::size_t>(row - tried.begin()), fit, cosine, tried[n]});
   }
   for (Candidate& candidate : best_few(std::move(found), kMost)) {
     Hypothesis at = std::move(candidate.hypothesis);
@@ -221,10 +249,11 @@ void MistakeFinder::add_amounts(const Trace& trace, const Table& table, std::vec
       if (next == 0 || !std::isfinite(next) || std::abs(next - amount) <= kSameAmount * std::abs(amount)) break;
       before = amount, fitted_before = fitted;
       const auto fault = std::make_shared<Fault>(at.fault->by(next));
-      at = simulated(table, {{fault, {fault->name}, {}}}).front();
+      at = simulated(table, {{fault, {fault->name}, {}}}, candidate.fit.is_smooth).front();
     }
     const auto is_same = [&](const Hypothesis& other) { return other.names == at.names; };
-    if (std::none_of(hypotheses.begin(), hypotheses.end(), is_same)) hypotheses.push_back(std::move(at));
+    if (std::none_of(hypotheses.begin(), hypotheses.end(), is_same))
+      hypotheses.push_back(simulated(table, {std::move(at)}).front());
   }
 }
 
@@ -256,8 +285,39 @@ void MistakeFinder::add_pairs(const Trace& trace, const Table& table, std::vecto
     if (other != alone.front().hypothesis) pairs.insert(std::minmax(alone.front().hypothesis, other));
   }
   std::vector<Hypothesis> tried;
-  for (const auto& [i, j] : pairs) tried.push_back(pair_of(all[i], all[j]));
+  for (const auto& [i, j] : pairs) tried.push_back(pair_of(table, i, j));
   for (Hypothesis& hypothesis : simulated(table, std::move(tried))) hypotheses.push_back(std::move(hypothesis));
+}
+
+// Most mistakes leave most views as they are, so most of a pair's motions are known.
+Hypothesis MistakeFinder::pair_of(const Table& table, std::size_t first, std::size_t second) {
+  const Hypothesis &one = table.hypotheses[first], &other = table.hypotheses[second];
+  Hypothesis pair{std::make_shared<Fault>(combined(*one.fault, *other.fault)), {one.names[0], other.names[0]}, {}};
+  for (std::size_t v = 0; v < table.views.size(); ++v) {
+    const bool is_one = table.is_idle[second][v], is_other = table.is_idle[first][v];
+    pair.sights.push_back(is_one ? one.sights[v] : is_other ? other.sights[v] : Sight{});
+    if (is_one || is_other) pair.sights.back().source = Sight::Source::borrowed;
+  }
+  return pair;
+}
+
+// A mistake without effect alone may have one beside another. So the suspects that a report shows are simulated whole.
+std::vector<Suspect> MistakeFinder::ranked(const Trace& trace, const Table& table,
+                                           std::vector<Hypothesis>& hypotheses) const {
+  while (true) {
+    std::vector<Suspect> suspects = trace.ranked(hypotheses, probes_);
+    std::vector<std::size_t> unsure;
+    for (std::size_t n = 0; n < std::min(kShown, suspects.size()); ++n) {
+      const auto is_borrowed = [](const Sight& sight) { return sight.source == Sight::Source::borrowed; };
+      if (std::ranges::any_of(hypotheses[suspects[n].hypothesis].sights, is_borrowed))
+        unsure.push_back(suspects[n].hypothesis);
+    }
+    if (unsure.empty()) return suspects;
+    std::vector<Hypothesis> whole;
+    for (const std::size_t h : unsure) whole.push_back({hypotheses[h].fault, hypotheses[h].names, {}});
+    whole = simulated(table, std::move(whole));
+    for (std::size_t n = 0; n < unsure.size(); ++n) hypotheses[unsure[n]] = std::move(whole[n]);
+  }
 }
 
 // Where the engine was seen, where not, and beside what.
@@ -316,22 +376,22 @@ MistakeReport MistakeFinder::report(const Engine& engine) {
   const Trace trace(table.views, table.observations, std::move(moved), is_single);
   std::vector<Hypothesis> hypotheses = table.hypotheses;
   const auto best = [&] {
-    const auto ranked = trace.ranked(hypotheses, probes_);
-    return ranked.empty() ? 0.0 : ranked.front().explains;
+    const auto found = trace.ranked(hypotheses, probes_);
+    return found.empty() ? 0.0 : found.front().explains;
   };
   if (trace.probes_off(hypotheses).empty()) return report;
   if (best() < kSure) add_amounts(trace, table, hypotheses);
   if (best() < kSure) add_pairs(trace, table, hypotheses);
+  const std::vector<Suspect> suspects = ranked(trace, table, hypotheses);
   for (const std::size_t probe : trace.probes_off(hypotheses)) report.off.push_back(probes_[probe].id);
-  const std::vector<Suspect> ranked = trace.ranked(hypotheses, probes_);
-  for (const Suspect& suspect : ranked) {
+  for (const Suspect& suspect : suspects) {
     if (report.suspects.size() == kShown || suspect.explains < kNotable) break;
     report.suspects.push_back(
         {hypotheses[suspect.hypothesis].names, suspect.explains, suspect.explained, suspect.cases});
   }
   report.verdict = MistakeReport::Verdict::unnamed;
-  if (ranked.empty() || ranked.front().explains < kNamed) return report;
-  const double rest = 1 - ranked.front().explains;
+  if (suspects.empty() || suspects.front().explains < kNamed) return report;
+  const double rest = 1 - suspects.front().explains;
   for (const auto& suspect : report.suspects) report.leaders += 1 - suspect.explains <= rest + kAlike * (rest + 1e-6);
   report.verdict = report.leaders > 1 ? MistakeReport::Verdict::alike : MistakeReport::Verdict::named;
   return report;

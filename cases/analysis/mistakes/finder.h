@@ -53,11 +53,14 @@ class MistakeFinder {
     std::vector<Sight> bases;
     std::vector<Observation> observations;
     std::vector<Hypothesis> hypotheses;
+    std::vector<std::vector<bool>> is_idle;  // by hypothesis and view: the mistake has no visible effect there
   };
   std::vector<StateSeries> motions_of(const std::vector<MotionTask>& tasks, double limit) const;
   std::vector<Sight> sights(const Table& table, const Engine* engine, std::shared_ptr<const Fault> fault) const;
   void add_chaos(const Table& table, const Engine& engine, std::vector<Sight>& moved) const;
-  std::vector<Hypothesis> simulated(const Table& table, std::vector<Hypothesis> hypotheses) const;
+  // Simulates the views that a hypothesis has no sight of. `only_smooth`: of these, the views where nothing touches.
+  std::vector<Hypothesis> simulated(const Table& table, std::vector<Hypothesis> hypotheses,
+                                    bool only_smooth = false) const;
   RunName nearest_method(const Engine& engine);
   const Table& table_for(const RunName* of_points);
   void note_sights(const Table& table, const std::vector<Sight>& moved, MistakeReport& report) const;
@@ -65,6 +68,9 @@ class MistakeFinder {
   std::vector<Hypothesis> larger_amounts(const Trace& trace, const Table& table) const;
   void add_amounts(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const;
   void add_pairs(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const;
+  static Hypothesis pair_of(const Table& table, std::size_t first, std::size_t second);  // of the table's mistakes
+  // The best first.
+  std::vector<Suspect> ranked(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const;
 
   const EngineTable& engines_;
   RunName run_;

@@ -193,7 +193,7 @@ Trace::Fit Trace::fit(const Hypothesis& hypothesis, bool of_contacts) const {
     together += weight * d.together, predicted += weight * d.predicted * d.predicted;
     error += weight * d.error * d.error;
   }
-  const Fit fit{together / predicted, together / std::sqrt(predicted * error)};
+  const Fit fit{together / predicted, together / std::sqrt(predicted * error), !of_contacts};
   return std::isfinite(fit.factor) && std::isfinite(fit.cosine) ? fit : Fit{};
 }
 

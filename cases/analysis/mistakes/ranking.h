@@ -44,6 +44,7 @@ class Trace {
   // The factor on this mistake's motion that fits the engine's best, and the cosine of the two; 0 if there is none.
   struct Fit {
     double factor = 0, cosine = 0;
+    bool is_smooth = false;  // found where nothing touches, because the mistake shows there
   };
   Fit fit(const Hypothesis& hypothesis) const;
   // For all pairs i < j: the rest of the error, 0..1, if the motions of both mistakes simply added up.

@@ -28,7 +28,7 @@ View view_on(View::Kind kind, std::size_t index, const ProbeScene& probe, const 
 // Eliminates a and b from x(h) = x + a hᵖ + b hᵖ⁺¹ + ... at h, h/2, h/4. The two finer steps give `coarse`.
 Sight extrapolated(const std::vector<double>& one, const std::vector<double>& half, const std::vector<double>& quarter,
                    int order) {
-  Sight sight;
+  Sight sight{{}, {}, ""};
   const std::size_t size = std::min({one.size(), half.size(), quarter.size()});
   const double p = std::pow(2.0, order), q = 2 * p;
   for (std::size_t i = 0; i < size; ++i) {
@@ -96,11 +96,14 @@ std::vector<MotionTask> nudged_tasks(std::vector<MotionTask> tasks) {
 }
 
 Sight seen(const View& view, const std::vector<StateSeries>& motions, std::size_t first) {
+  Sight sight{motions[first].states, {}, ""};
+  if (view.dt.size() > 1)
+    sight = extrapolated(motions[first].states, motions[first + 1].states, motions[first + 2].states, view.order);
   for (std::size_t n = 0; n < view.dt.size(); ++n) {
-    if (!motions[first + n].why.empty()) return {{}, {}, motions[first + n].why};
+    if (!motions[first + n].why.empty()) sight = {{}, {}, motions[first + n].why};
   }
-  if (view.dt.size() == 1) return {motions[first].states, {}, ""};
-  return extrapolated(motions[first].states, motions[first + 1].states, motions[first + 2].states, view.order);
+  sight.source = Sight::Source::simulated;
+  return sight;
 }
 
 }  // namespace rigor

@@ -35,8 +35,10 @@ struct Sight {
   // The same with less certainty, to measure it. Extrapolated: from the two finer steps alone. Beside a twin: the
   // motion after a nudge by some roundings (nudged_tasks). Else empty.
   std::vector<double> coarse;
-  std::string why;               // the reason if there is no motion; else empty
-  bool as_loaded_alone = false;  // of a mistake: only its state as loaded is compared
+  std::string why = "not simulated";  // the reason if there is no motion; else empty
+  bool as_loaded_alone = false;       // of a mistake: only its state as loaded is compared
+  // borrowed: of two mistakes, the motion of one, because the other alone has no effect in the view.
+  enum class Source { none, simulated, borrowed } source = Source::none;
 };
 
 // The views of a run on the probes. `of_points`: the base of Kind::same_method; null if it is not needed.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -246,11 +245,15 @@ std::pair<double, double> stiffest(const Motions& motions) {
   for (Eigen::Index i = 0; i < count; ++i)
     K(i, i) = motions.elements[static_cast<std::size_t>(i)].k,
          C(i, i) = motions.elements[static_cast<std::size_t>(i)].c;
-  const Eigen::EigenSolver<Eigen::MatrixXd> modes(motions.response * K);
+  // High powers of a matrix keep its largest mode alone. Eigen's solver would find all, and takes a compiler half a
+  // minute.
+  const Eigen::MatrixXd once = motions.response * K;
+  Eigen::MatrixXd power = once / once.norm();
+  for (int doubled = 0; doubled < 40; ++doubled) power = (power * power).eval() / (power * power).norm();
   Eigen::Index most = 0;
-  modes.eigenvalues().real().maxCoeff(&most);
-  const double squared = modes.eigenvalues()[most].real();
-  const Eigen::VectorXd x = modes.eigenvectors().col(most).real();  // the coordinates' amplitudes
+  power.colwise().norm().maxCoeff(&most);
+  const Eigen::VectorXd x = power.col(most);  // the coordinates' amplitudes
+  const double squared = x.dot(once * x) / x.squaredNorm();
   // The power that dampers take of a unit speed, over twice the kinetic energy, which is xᵀKx / squared.
   return {std::sqrt(squared), x.dot(C * x) * squared / x.dot(K * x)};
 }
@@ -274,12 +277,18 @@ std::optional<std::pair<double, double>> oscillator(const Motions& motions, cons
   return std::pair{std::sqrt(motions.elements[*i].k / inertia), motions.elements[*i].c / inertia};
 }
 
+// The largest size of an eigenvalue, by the roots of their equation.
+double spectral_radius(const Eigen::Matrix2d& A) {
+  const double middle = 0.5 * A.trace(), product = A.determinant(), square = middle * middle - product;
+  return square < 0 ? std::sqrt(product) : std::abs(middle) + std::sqrt(square);
+}
+
 // By bisection: the largest dt at which the semi-implicit step's matrix has no eigenvalue beyond the unit circle.
 double semi_implicit_step(double w, double c) {
   const auto radius = [&](double h) {
     Eigen::Matrix2d step;
     step << 1 - h * h * w * w, h * (1 - h * c), -h * w * w, 1 - h * c;
-    return step.eigenvalues().cwiseAbs().maxCoeff();
+    return spectral_radius(step);
   };
   double low = 0, high = 1e6;
   for (int round = 0; round < 200; ++round) (radius(0.5 * (low + high)) > 1 + 1e-12 ? high : low) = 0.5 * (low + high);
@@ -301,7 +310,7 @@ std::optional<double> energy_growth_of(const std::string& method, double w, doub
   } else {
     return {};
   }
-  const double radius = step.eigenvalues().cwiseAbs().maxCoeff();
+  const double radius = spectral_radius(step);
   return radius * radius;
 }
 
