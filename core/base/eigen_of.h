@@ -1,4 +1,5 @@
-// Eigenvalues and eigenvectors of a symmetric matrix by Eigen's solver, which takes a compiler seconds: once, for all.
+// Decompositions of Eigen that take a compiler seconds each: compiled once, for all. See factors.h for equations with
+// one solution.
 #pragma once
 
 #include "core/base/math.h"
@@ -11,5 +12,18 @@ struct SymmetricEigen {
 };
 
 SymmetricEigen eigen_of(const Mat3& symmetric);
+
+struct DenseEigen {
+  Eigen::VectorXd values;   // ascending
+  Eigen::MatrixXd vectors;  // its columns, orthonormal
+};
+
+DenseEigen dense_eigen_of(const Eigen::MatrixXd& symmetric);
+
+// The X with the least |A X - B|, column by column, by Householder's QR with pivots. X is 0 where A has no rank.
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+// An orthonormal basis of the columns of A, as columns. A pivot counts if it exceeds this share of the largest.
+Eigen::MatrixXd basis_of(const Eigen::MatrixXd& A, double share);
 
 }  // namespace rigor

@@ -1,10 +1,11 @@
 #include "cases/analysis/fitting/bootstrap.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <random>
+
+#include "core/base/eigen_of.h"
 
 namespace rigor {
 namespace {
@@ -71,7 +72,7 @@ class Neighbourhood {
     for (std::size_t p = 0; p < count; ++p)
       for (std::size_t t = 0; t < found[p].size(); ++t)
         values(static_cast<long>(p), static_cast<long>(t)) = found[p][t];
-    coefficients_ = design.colPivHouseholderQr().solve(values);
+    coefficients_ = least_squares(design, values);
   }
 
   // Draws minima, as offsets in the box; `flat` counts draws without a minimum along each axis.
@@ -93,12 +94,12 @@ class Neighbourhood {
   Vector minimum_of(const Vector& sum, std::vector<int>& flat) const {
     const long n = half_.size();
     const QuadraticForm one = parabola_of(sum, n);
-    const Eigen::SelfAdjointEigenSolver<Matrix> parts(one.curvature);
-    const double largest = parts.eigenvalues().cwiseAbs().maxCoeff();
+    const DenseEigen parts = dense_eigen_of(one.curvature);
+    const double largest = parts.values.cwiseAbs().maxCoeff();
     Vector offset = Vector::Zero(n);
     for (long k = 0; k < n; ++k) {
-      const Vector direction = parts.eigenvectors().col(k);
-      const double slope = direction.dot(one.slope), curvature = parts.eigenvalues()[k];
+      const Vector direction = parts.vectors.col(k);
+      const double slope = direction.dot(one.slope), curvature = parts.values[k];
       constexpr double kNoCurvature = 1e-9;
       if (curvature > kNoCurvature * largest && curvature > 0) {
         offset -= slope / curvature * direction;

@@ -1,8 +1,9 @@
 #include "cases/analysis/fitting/least_squares.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "core/base/eigen_of.h"
 
 namespace rigor {
 namespace {
@@ -88,7 +89,7 @@ Vector LeastSquares::step_of(const SquaresMinimum& from, double damping, long he
     }
     Vector right = Vector::Zero(rows + n);
     right.head(rows) = -residuals;
-    const Vector solved = system.colPivHouseholderQr().solve(right);
+    const Vector solved = rigor::least_squares(system, right);
     std::vector<long> still;
     for (long k = 0; k < n; ++k) {
       const long j = free[static_cast<std::size_t>(k)];

@@ -1,12 +1,13 @@
 #include "cases/analysis/fitting/profile.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <tuple>
 
+#include "core/base/eigen_of.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -33,9 +34,7 @@ constexpr double kRankThreshold = 1e-6;  // of derivatives by differences
 
 long rank_of(Matrix jacobian) {
   scale_columns(jacobian);
-  Eigen::ColPivHouseholderQR<Matrix> parts(jacobian);
-  parts.setThreshold(kRankThreshold);
-  return parts.rank();
+  return basis_of(jacobian, kRankThreshold).cols();
 }
 
 // Of all unknowns. A direction that the residuals do not know gets a large variance, and no infinite one.

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/base/eigen_of.h"
 #include "core/dynamics/joints/joint_rows.h"
 
 namespace rigor {
@@ -70,7 +69,9 @@ class VelocityRows {
       if (body.fixed) continue;
       const Mat3 R = body.orientation.toRotationMatrix(), inertia = R * body.inertia * R.transpose();
       root.block<3, 3>(6 * i, 6 * i) = Mat3::Identity() / std::sqrt(body.mass);
-      root.block<3, 3>(6 * i + 3, 6 * i + 3) = Eigen::SelfAdjointEigenSolver<Mat3>(inertia).operatorInverseSqrt();
+      const SymmetricEigen principal = eigen_of(inertia);
+      const Vec3 roots = principal.values.cwiseSqrt().cwiseInverse();
+      root.block<3, 3>(6 * i + 3, 6 * i + 3) = principal.vectors * roots.asDiagonal() * principal.vectors.transpose();
     }
     for (std::size_t r = 0; r < rotors_.size(); ++r) {
       const Eigen::Index at = 6 * bodies() + static_cast<Eigen::Index>(r);
@@ -138,9 +139,7 @@ DenseMatrix held_directions(const std::vector<RateRow>& held, const DenseMatrix&
     const Eigen::VectorXd column = root * held[k].transpose();
     columns.col(static_cast<Eigen::Index>(k)) = column.norm() > 0 ? Eigen::VectorXd(column.normalized()) : column;
   }
-  Eigen::ColPivHouseholderQR<DenseMatrix> qr(columns);
-  qr.setThreshold(kRedundant);
-  return qr.householderQ() * DenseMatrix::Identity(root.rows(), qr.rank());
+  return basis_of(columns, kRedundant);
 }
 
 }  // namespace
@@ -173,11 +172,11 @@ void SmallMotions::find_stiffest(const DenseMatrix& response) {
     root_stiffness[i] = std::sqrt(elements_[static_cast<std::size_t>(i)].stiffness);
     damping[i] = elements_[static_cast<std::size_t>(i)].damping;
   }
-  const Eigen::SelfAdjointEigenSolver<DenseMatrix> modes(root_stiffness.asDiagonal() * response *
-                                                         root_stiffness.asDiagonal());
-  const double squared = modes.eigenvalues()[count - 1];
+  const DenseMatrix scaled = root_stiffness.asDiagonal() * response * root_stiffness.asDiagonal();
+  const DenseEigen modes = dense_eigen_of(scaled);
+  const double squared = modes.values[count - 1];
   if (!(squared > 0)) return;
-  const Eigen::VectorXd rates = response * (root_stiffness.cwiseProduct(modes.eigenvectors().col(count - 1)));
+  const Eigen::VectorXd rates = response * (root_stiffness.cwiseProduct(modes.vectors.col(count - 1)));
   stiffest_ = {std::sqrt(squared), rates.dot(damping.cwiseProduct(rates)) / squared};
 }
 

@@ -1,10 +1,10 @@
 #include "cases/case/recording/noise.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "core/base/eigen_of.h"
 #include "core/base/rotation_vector.h"
 
 namespace rigor {
@@ -22,7 +22,7 @@ double left_by_parabola(const double* times, const std::vector<Vec3>& values) {
     powers.row(static_cast<long>(i)) << 1, t, t * t;
     rows.row(static_cast<long>(i)) = (values[i] - values[kWindow / 2]).transpose();
   }
-  const Eigen::Matrix3d fitted = powers.colPivHouseholderQr().solve(rows);
+  const Eigen::Matrix3d fitted = least_squares(powers, rows);
   return (rows - powers * fitted).squaredNorm() / kFree;
 }
 

@@ -1,8 +1,8 @@
 #include "cases/case/recording/recording.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
+#include "core/base/eigen_of.h"
 #include "core/base/rotation_vector.h"
 
 namespace rigor {
@@ -16,7 +16,7 @@ Eigen::Matrix3d parabola(const std::vector<double>& times, const std::vector<Vec
     powers.row(i) << 1, t, t * t;
     rows.row(i) = values[static_cast<std::size_t>(i)].transpose();
   }
-  return powers.colPivHouseholderQr().solve(rows).transpose();
+  return least_squares(powers, rows).transpose();
 }
 
 void start_by_fit(const RecordedBody& from, int count, Body& body) {

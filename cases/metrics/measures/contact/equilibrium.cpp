@@ -1,10 +1,11 @@
 #include "cases/metrics/measures/contact/equilibrium.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "core/base/eigen_of.h"
 
 namespace rigor {
 namespace {
@@ -141,11 +142,11 @@ class Island {
 
   // Projects on the directions u in which u' rest is zero.
   static Mat3 directions_without(const Eigen::MatrixXd& rest) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> solver(Mat3(rest * rest.transpose()));
+    const SymmetricEigen found = eigen_of(Mat3(rest * rest.transpose()));
     Mat3 counts = Mat3::Zero();
     for (int k = 0; k < 3; ++k) {
-      const Vec3 direction = solver.eigenvectors().col(k);
-      if (solver.eigenvalues()[k] <= kInRowSpace * kInRowSpace) counts += direction * direction.transpose();
+      const Vec3 direction = found.vectors.col(k);
+      if (found.values[k] <= kInRowSpace * kInRowSpace) counts += direction * direction.transpose();
     }
     return counts;
   }

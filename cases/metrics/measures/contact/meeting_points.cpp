@@ -1,6 +1,5 @@
 #include "cases/metrics/measures/contact/meeting_points.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include "cases/metrics/measures/contact/pair_wrenches.h"
 #include "cases/metrics/measures/contact/touching.h"
 #include "cases/metrics/measures/shape_gap.h"
+#include "core/base/eigen_of.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
 namespace rigor {
@@ -115,7 +115,7 @@ class MeetingPairs {
   double yielding(std::size_t i) const {
     const Body& body = scene_.bodies[i];
     if (body.fixed || std::holds_alternative<Sphere>(*body.shape)) return inverse_mass(i);
-    const double least = Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia).eigenvalues().minCoeff();
+    const double least = eigen_of(body.inertia).values.minCoeff();
     return inverse_mass(i) + std::pow(bounding_radius(*body.shape), 2) / least;
   }
 
