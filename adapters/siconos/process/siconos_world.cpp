@@ -153,7 +153,8 @@ std::vector<std::pair<std::string, std::string>> SiconosWorld::settings_in_force
   if (!scene_.joints.empty()) in_force.emplace_back("joints", "held at the velocities of the step's end");
   if (!contacts_->is_needed()) return in_force;
   in_force.emplace_back("contact points", "Rigor's narrow phase; Siconos's own is in single precision");
-  in_force.emplace_back("contact law", "Newton's restitution, Coulomb's cone");
+  in_force.emplace_back("contact law",
+                        "Newton's restitution, Coulomb's cone; skewed on slopes, by Siconos's own frame");
   const auto told = [](const auto& value) { return value ? fmt::format("{:g}", 1.0 * *value) : "as shipped"; };
   in_force.emplace_back("contact solver", "Gauss-Seidel; sweeps: " + told(settings_.iterations) +
                                               "; tolerance: " + told(settings_.tolerance));

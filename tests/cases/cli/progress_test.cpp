@@ -25,7 +25,7 @@ std::size_t lines_with(const std::string& text, const std::string& pattern) {
 
 // So that a test need not wait for ten seconds.
 struct Quick : Program {
-  Quick() { setenv("RIGOR_PROGRESS_SECONDS", "0.02", 1), folder.write("stone.toml", kThrown); }
+  Quick() { setenv("RIGOR_PROGRESS_SECONDS", "0.001", 1), folder.write("stone.toml", kThrown); }
   ~Quick() { unsetenv("RIGOR_PROGRESS_SECONDS"); }
 };
 
