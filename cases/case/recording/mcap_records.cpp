@@ -1,8 +1,8 @@
 #include "cases/case/recording/mcap_records.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
+#include <boost/crc.hpp>
 #include <map>
 
 #include "core/base/error.h"
@@ -114,8 +114,9 @@ class McapParser {
     const std::string_view records = content.take(content.integer<std::uint64_t>());
     if (records.size() != size)
       content.refuse(fmt::format("the chunk has {} bytes and says {}; allowed: equal sizes", records.size(), size));
-    const auto found = crc32(0, reinterpret_cast<const Bytef*>(records.data()), static_cast<uInt>(records.size()));
-    if (checksum != 0 && checksum != found)  // 0: there is none
+    boost::crc_32_type found;
+    found.process_bytes(records.data(), records.size());
+    if (checksum != 0 && checksum != found.checksum())  // 0: there is none
       content.refuse("the chunk's checksum differs from its content; the file is damaged");
     McapBytes inside(records, path_, content.place() - records.size());
     is_in_chunk_ = true;
