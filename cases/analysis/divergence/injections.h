@@ -43,7 +43,7 @@ std::vector<std::shared_ptr<const Scene>> scenes_at(const Scene& scene, const Mo
                                                     const std::vector<std::size_t>& samples, double seconds);
 
 // The largest injections, at most `most`, none of them nearer than 5 steps to a larger one or below 1 % of the largest.
-// Of injections that are alike in four digits the first counts as larger.
+// The first of several that are alike in four digits counts as larger.
 std::vector<Injection> largest_injections(const Injections& injections, std::size_t most);
 
 }  // namespace rigor

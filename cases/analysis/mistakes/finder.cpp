@@ -23,29 +23,6 @@ constexpr std::size_t kShown = 5;
 constexpr double kMostOfMistake = 0.5;  // s of CPU time: some mistakes make scenes that take the core very long
 constexpr double kNotable = 0.3;
 
-std::vector<Hypothesis> of_table() {
-  std::vector<Hypothesis> all;
-  for (const Fault& fault : faults()) all.push_back({std::make_shared<Fault>(fault), {fault.name}, {}});
-  return all;
-}
-
-// By view. A mistake that starts each step anew moves bodies by other roundings even where it changes nothing else.
-std::vector<bool> idle_views(const Hypothesis& hypothesis, const std::vector<Sight>& bases,
-                             const std::vector<Observation>& observations) {
-  constexpr double kInvisible = 0.01;  // of the smallest distance that counts
-  std::vector<bool> is_idle;
-  for (std::size_t v = 0; v < bases.size(); ++v) {
-    const Sight &base = bases[v], &moved = hypothesis.sights[v];
-    is_idle.push_back(base.why.empty() && moved.why.empty() && base.states.size() == moved.states.size());
-  }
-  for (const Observation& observation : observations) {
-    const std::size_t v = observation.view_index();
-    const Sight& moved = hypothesis.sights[v];
-    if (!(observation.distances(moved, moved).predicted <= kInvisible * observation.tolerance())) is_idle[v] = false;
-  }
-  return is_idle;
-}
-
 // Some engines get their loads as wrenches, which Rigor computes from the state that the engine reports. A wrong report
 // then also changes the motion. Such a mistake is compared in the loaded state alone, before any load acts.
 bool is_fed_back(const Fault& fault, const Scene& scene, const EngineInfo& engine) {
@@ -66,7 +43,7 @@ std::vector<StateSeries> MistakeFinder::motions_of(const std::vector<MotionTask>
 }
 
 // The sights of `engine` with the run's settings; if it is null, those of each view's base.
-std::vector<Sight> MistakeFinder::sights(const Table& table, const Engine* engine,
+std::vector<Sight> MistakeFinder::sights(const MistakeTable& table, const Engine* engine,
                                          std::shared_ptr<const Fault> fault) const {
   std::vector<MotionTask> tasks;
   for (const View& view : table.views) {
@@ -83,7 +60,7 @@ std::vector<Sight> MistakeFinder::sights(const Table& table, const Engine* engin
 }
 
 // A mistake may make a motion chaotic. Rounding alone then separates the engine from its twin with the same mistake.
-void MistakeFinder::add_chaos(const Table& table, const Engine& engine, std::vector<Sight>& moved) const {
+void MistakeFinder::add_chaos(const MistakeTable& table, const Engine& engine, std::vector<Sight>& moved) const {
   std::vector<MotionTask> tasks;
   std::vector<std::size_t> of;  // the tasks' views
   for (std::size_t v = 0; v < table.views.size(); ++v) {
@@ -96,7 +73,7 @@ void MistakeFinder::add_chaos(const Table& table, const Engine& engine, std::vec
   for (std::size_t n = 0; n < of.size(); ++n) moved[of[n]].coarse = motions[n].states;
 }
 
-std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector<Hypothesis> hypotheses,
+std::vector<Hypothesis> MistakeFinder::simulated(const MistakeTable& table, std::vector<Hypothesis> hypotheses,
                                                  bool only_smooth) const {
   const auto is_asked = [&](const View& view, const Sight& sight) {
     const bool is_of_contacts = view.can_touch && view.kind == View::Kind::accurate;
@@ -127,16 +104,15 @@ std::vector<Hypothesis> MistakeFinder::simulated(const Table& table, std::vector
   return hypotheses;
 }
 
-const MistakeFinder::Table& MistakeFinder::table_for(const RunName* of_points) {
+const MistakeTable& MistakeFinder::table_for(const RunName* of_points) {
   const std::string key = of_points ? of_points->text : "";
   if (const auto found = tables_.find(key); found != tables_.end()) return found->second;
-  Table table;
+  MistakeTable table;
   table.views = views_of(engines_, run_, probes_, of_points);
   table.bases = sights(table, nullptr, nullptr);
   table.observations = observations_of(table.views, table.bases, probes_);
-  table.hypotheses = simulated(table, of_table());
-  for (const Hypothesis& hypothesis : table.hypotheses)
-    table.is_idle.push_back(idle_views(hypothesis, table.bases, table.observations));
+  table.hypotheses = simulated(table, known_mistakes());
+  table.find_idle();
   return tables_.emplace(key, std::move(table)).first->second;  // whole, or not at all
 }
 
@@ -147,7 +123,7 @@ RunName MistakeFinder::nearest_method(const Engine& engine) {
   for (const char* name : {"core:semi-implicit-euler,orientation=quaternion-exponential",
                            "core:semi-implicit-euler,orientation=quaternion-additive", "core:explicit-euler",
                            "core:velocity-verlet", "core:implicit-midpoint"}) {
-    Table one;
+    MistakeTable one;
     const RunName candidate = parse_run_name(name, engines_.infos());
     for (const View& view : views_of(engines_, run_, probes_, &candidate)) {
       if (view.kind == View::Kind::same_method) one.views.push_back(view);
@@ -168,18 +144,20 @@ RunName MistakeFinder::nearest_method(const Engine& engine) {
 
 namespace {
 
-// A mistake of some amount, and how well its motion has the shape of the engine's error: the cosine of the two.
+// A mistake of some amount, and how well its motion has the shape of the engine's error.
 struct Candidate {
   std::size_t row;  // of the table
   Trace::Fit fit;
-  double cosine;  // not negative: too little is too much by a negative amount
   Hypothesis hypothesis;
 };
+
+// The sign says nothing: too little is too much by a negative amount.
+double likeness(const Trace::Fit& fit) { return std::abs(fit.cosine); }
 
 // The best one of each row, and of these the best few.
 std::vector<Candidate> best_few(std::vector<Candidate> candidates, std::size_t most) {
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.cosine > b.cosine; });
+                   [](const Candidate& a, const Candidate& b) { return likeness(a.fit) > likeness(b.fit); });
   std::set<std::size_t> rows;
   std::erase_if(candidates, [&](const Candidate& candidate) { return !rows.insert(candidate.row).second; });
   if (candidates.size() > most) candidates.erase(candidates.begin() + static_cast<long>(most), candidates.end());
@@ -197,7 +175,7 @@ double next_amount(double amount, double fitted, double amount_before, double fi
 
 // A large amount moves bodies along another path than a small one. Mistakes whose motion has something of the error's
 // shape are tried at up to a thousand times their amount.
-std::vector<Hypothesis> MistakeFinder::larger_amounts(const Trace& trace, const Table& table) const {
+std::vector<Hypothesis> MistakeFinder::larger_amounts(const Trace& trace, const MistakeTable& table) const {
   constexpr double kSomething = 0.1;
   constexpr std::size_t kMost = 6;
   std::vector<Candidate> found;
@@ -205,25 +183,26 @@ std::vector<Hypothesis> MistakeFinder::larger_amounts(const Trace& trace, const 
     const Hypothesis& hypothesis = table.hypotheses[row];
     if (!hypothesis.fault->by) continue;
     const Trace::Fit fit = trace.fit(hypothesis);
-    const double cosine = std::abs(fit.cosine);
-    if (cosine > kSomething) found.push_back({row, fit, cosine, hypothesis});
+    if (likeness(fit) > kSomething) found.push_back({row, fit, hypothesis});
   }
-  std::vector<Hypothesis> larger, all;
+  std::vector<Hypothesis> larger;
   for (const Candidate& candidate : best_few(std::move(found), kMost)) {
     const Fault& fault = *candidate.hypothesis.fault;
+    std::vector<Hypothesis> amounts;
     for (const double times : {10.0, 100.0, 1000.0, -100.0}) {
       const auto made = std::make_shared<Fault>(fault.by(times * fault.amount));
-      (candidate.fit.is_smooth ? larger : all).push_back({made, {made->name}, {}});
+      amounts.push_back({made, {made->name}, {}});
     }
+    for (Hypothesis& one : simulated(table, std::move(amounts), candidate.fit.is_smooth))
+      larger.push_back(std::move(one));
   }
-  larger = simulated(table, std::move(larger), true);
-  for (Hypothesis& one : simulated(table, std::move(all))) larger.push_back(std::move(one));
   return larger;
 }
 
 // Mistakes whose motion has the shape of the error are scaled until they fit it.
-void MistakeFinder::add_amounts(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const {
-  constexpr double kSameShape = 0.7;  // the cosine; further rounds find the amount of a nonlinear mistake
+void MistakeFinder::add_amounts(const Trace& trace, const MistakeTable& table,
+                                std::vector<Hypothesis>& hypotheses) const {
+  constexpr double kSameShape = 0.7;  // further rounds find the amount of a nonlinear mistake
   constexpr double kSameAmount = 1e-4;
   constexpr std::size_t kMost = 3;
   constexpr int kRounds = 8;
@@ -233,12 +212,11 @@ void MistakeFinder::add_amounts(const Trace& trace, const Table& table, std::vec
   for (std::size_t n = 0; n < tried.size(); ++n) {
     if (!tried[n].fault->by) continue;
     const Trace::Fit fit = trace.fit(tried[n]);
-    const double cosine = std::abs(fit.cosine);
     // The amounts of one row are one row: they differ by their number alone.
     const auto row = std::find_if(tried.begin(), tried.end(), [&](const Hypothesis& other) {
       return other.fault->by && other.fault->by(1).name == tried[n].fault->by(1).name;
     });
-    if (cosine > kSameShape) found.push_back({static_cast<std::size_t>(row - tried.begin()), fit, cosine, tried[n]});
+    if (likeness(fit) > kSameShape) found.push_back({static_cast<std::size_t>(row - tried.begin()), fit, tried[n]});
   }
   for (Candidate& candidate : best_few(std::move(found), kMost)) {
     Hypothesis at = std::move(candidate.hypothesis);
@@ -257,52 +235,16 @@ void MistakeFinder::add_amounts(const Trace& trace, const Table& table, std::vec
   }
 }
 
-// Two mistakes in one engine. Tried are pairs that explain different cases completely, pairs whose motions add up to
-// the error, and the best single mistake with any other.
-void MistakeFinder::add_pairs(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const {
-  constexpr std::size_t kMostTried = 24;
-  const std::vector<Hypothesis>& all = table.hypotheses;
-  std::set<std::pair<std::size_t, std::size_t>> pairs;
-  std::vector<std::pair<std::size_t, std::pair<std::size_t, std::size_t>>> covers;
-  std::vector<std::set<std::size_t>> explained;
-  for (const Hypothesis& hypothesis : all) {
-    const auto own = trace.explained_by(hypothesis, all);
-    explained.emplace_back(own.begin(), own.end());
-  }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t j = i + 1; j < all.size() && !explained[i].empty(); ++j) {
-      std::set<std::size_t> both = explained[i];
-      both.insert(explained[j].begin(), explained[j].end());
-      if (both.size() > std::max(explained[i].size(), explained[j].size())) covers.push_back({both.size(), {i, j}});
-    }
-  }
-  std::stable_sort(covers.begin(), covers.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (std::size_t n = 0; n < std::min(kMostTried, covers.size()); ++n) pairs.insert(covers[n].second);
-  const std::vector<Trace::Sum> sums = trace.sums(all);
-  for (std::size_t n = 0; n < std::min(kMostTried, sums.size()); ++n) pairs.insert({sums[n].first, sums[n].second});
-  const std::vector<Suspect> alone = trace.ranked(all, probes_);
-  for (std::size_t other = 0; other < all.size() && !alone.empty(); ++other) {
-    if (other != alone.front().hypothesis) pairs.insert(std::minmax(alone.front().hypothesis, other));
-  }
+// Two mistakes in one engine.
+void MistakeFinder::add_pairs(const Trace& trace, const MistakeTable& table,
+                              std::vector<Hypothesis>& hypotheses) const {
   std::vector<Hypothesis> tried;
-  for (const auto& [i, j] : pairs) tried.push_back(pair_of(table, i, j));
+  for (const auto& [i, j] : trace.likely_pairs(table.hypotheses, probes_)) tried.push_back(table.pair(i, j));
   for (Hypothesis& hypothesis : simulated(table, std::move(tried))) hypotheses.push_back(std::move(hypothesis));
 }
 
-// Most mistakes leave most views as they are, so most of a pair's motions are known.
-Hypothesis MistakeFinder::pair_of(const Table& table, std::size_t first, std::size_t second) {
-  const Hypothesis &one = table.hypotheses[first], &other = table.hypotheses[second];
-  Hypothesis pair{std::make_shared<Fault>(combined(*one.fault, *other.fault)), {one.names[0], other.names[0]}, {}};
-  for (std::size_t v = 0; v < table.views.size(); ++v) {
-    const bool is_one = table.is_idle[second][v], is_other = table.is_idle[first][v];
-    pair.sights.push_back(is_one ? one.sights[v] : is_other ? other.sights[v] : Sight{});
-    if (is_one || is_other) pair.sights.back().source = Sight::Source::borrowed;
-  }
-  return pair;
-}
-
 // A mistake without effect alone may have one beside another. So the suspects that a report shows are simulated whole.
-std::vector<Suspect> MistakeFinder::ranked(const Trace& trace, const Table& table,
+std::vector<Suspect> MistakeFinder::ranked(const Trace& trace, const MistakeTable& table,
                                            std::vector<Hypothesis>& hypotheses) const {
   while (true) {
     std::vector<Suspect> suspects = trace.ranked(hypotheses, probes_);
@@ -321,7 +263,8 @@ std::vector<Suspect> MistakeFinder::ranked(const Trace& trace, const Table& tabl
 }
 
 // Where the engine was seen, where not, and beside what.
-void MistakeFinder::note_sights(const Table& table, const std::vector<Sight>& moved, MistakeReport& report) const {
+void MistakeFinder::note_sights(const MistakeTable& table, const std::vector<Sight>& moved,
+                                MistakeReport& report) const {
   for (std::size_t v = 0; v < moved.size(); ++v) {
     const std::string& id = probes_[table.views[v].probe].id;
     if (!moved[v].why.empty()) {
@@ -363,7 +306,7 @@ MistakeReport MistakeFinder::report(const Engine& engine) {
     method = nearest_method(engine);
     if (!method.text.empty()) of_points = &method;
   }
-  const Table& table = table_for(of_points);
+  const MistakeTable& table = table_for(of_points);
   MistakeReport report;
   report.known = faults().size();
   std::vector<Sight> moved = sights(table, &engine, nullptr);

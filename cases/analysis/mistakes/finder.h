@@ -8,15 +8,18 @@
 #include <vector>
 
 #include "cases/analysis/mistakes/laws.h"
-#include "cases/analysis/mistakes/ranking.h"
+#include "cases/analysis/mistakes/mistake_table.h"
 
 namespace rigor {
 
 struct MistakeReport {
-  // right: the engine has no error that its scheme does not make.
-  // named: one suspect explains the error best by far. alike: several do, because they move alike in all cases.
-  // unnamed: no known mistake explains the error. untried: no motion of the engine could be computed.
-  enum class Verdict { right, named, alike, unnamed, untried } verdict = Verdict::right;
+  enum class Verdict {
+    right,    // the engine has no error that its scheme does not make
+    named,    // one suspect explains the error best by far
+    alike,    // several do, because they move alike in all cases
+    unnamed,  // no known mistake explains the error
+    untried,  // no motion of the engine could be computed
+  } verdict = Verdict::right;
   struct Named {
     std::vector<std::string> names;  // two for a pair
     double explains = 0;             // 0..1
@@ -47,37 +50,28 @@ class MistakeFinder {
   MistakeReport report(const Engine& engine);
 
  private:
-  // All that does not depend on the engine's motion, for one choice of bases.
-  struct Table {
-    std::vector<View> views;
-    std::vector<Sight> bases;
-    std::vector<Observation> observations;
-    std::vector<Hypothesis> hypotheses;
-    std::vector<std::vector<bool>> is_idle;  // by hypothesis and view: the mistake has no visible effect there
-  };
   std::vector<StateSeries> motions_of(const std::vector<MotionTask>& tasks, double limit) const;
-  std::vector<Sight> sights(const Table& table, const Engine* engine, std::shared_ptr<const Fault> fault) const;
-  void add_chaos(const Table& table, const Engine& engine, std::vector<Sight>& moved) const;
+  std::vector<Sight> sights(const MistakeTable& table, const Engine* engine, std::shared_ptr<const Fault> fault) const;
+  void add_chaos(const MistakeTable& table, const Engine& engine, std::vector<Sight>& moved) const;
   // Simulates the views that a hypothesis has no sight of. `only_smooth`: of these, the views where nothing touches.
-  std::vector<Hypothesis> simulated(const Table& table, std::vector<Hypothesis> hypotheses,
+  std::vector<Hypothesis> simulated(const MistakeTable& table, std::vector<Hypothesis> hypotheses,
                                     bool only_smooth = false) const;
   RunName nearest_method(const Engine& engine);
-  const Table& table_for(const RunName* of_points);
-  void note_sights(const Table& table, const std::vector<Sight>& moved, MistakeReport& report) const;
+  const MistakeTable& table_for(const RunName* of_points);
+  void note_sights(const MistakeTable& table, const std::vector<Sight>& moved, MistakeReport& report) const;
   std::vector<LawDrift> law_drifts(const Engine& engine, const std::vector<std::string>& seen) const;
-  std::vector<Hypothesis> larger_amounts(const Trace& trace, const Table& table) const;
-  void add_amounts(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const;
-  void add_pairs(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const;
-  static Hypothesis pair_of(const Table& table, std::size_t first, std::size_t second);  // of the table's mistakes
+  std::vector<Hypothesis> larger_amounts(const Trace& trace, const MistakeTable& table) const;
+  void add_amounts(const Trace& trace, const MistakeTable& table, std::vector<Hypothesis>& hypotheses) const;
+  void add_pairs(const Trace& trace, const MistakeTable& table, std::vector<Hypothesis>& hypotheses) const;
   // The best first.
-  std::vector<Suspect> ranked(const Trace& trace, const Table& table, std::vector<Hypothesis>& hypotheses) const;
+  std::vector<Suspect> ranked(const Trace& trace, const MistakeTable& table, std::vector<Hypothesis>& hypotheses) const;
 
   const EngineTable& engines_;
   RunName run_;
   std::vector<ProbeScene> probes_;
   Options options_;
-  std::map<std::string, Table> tables_;  // by the base of Kind::same_method
-  mutable std::size_t motions_ = 0;      // so far
+  std::map<std::string, MistakeTable> tables_;  // by the base of Kind::same_method
+  mutable std::size_t motions_ = 0;             // so far
 };
 
 }  // namespace rigor

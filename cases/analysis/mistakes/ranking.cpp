@@ -14,8 +14,8 @@ constexpr double kSingleLoaded = 1e-6, kSingleMoved = 1e-4;
 // An observation counts if its error is this many times what the nearest mistake leaves there. Otherwise the error is
 // treated as a difference between the schemes.
 constexpr double kClear = 20;
-// About 140 pairs are tried. In two numbers, such as the position and speed of a sliding body, one of the pairs fits by
-// chance: to a twentieth once in three times, to this share once in a hundred times.
+// About 140 pairs are tried. In two numbers, such as the position and speed of a sliding body, one of them fits by
+// chance. It fits to a twentieth once in three times, and to this share once in a hundred times.
 constexpr double kClearOfPair = 120;
 
 // A pair of mistakes must leave at most half of the rest of a single one. It must leave at most a tenth if the single
@@ -241,6 +241,34 @@ std::vector<Trace::Sum> Trace::sums(const std::vector<Hypothesis>& hypotheses) c
   }
   std::sort(all.begin(), all.end(), [](const Sum& a, const Sum& b) { return a.rest < b.rest; });
   return all;
+}
+
+std::set<std::pair<std::size_t, std::size_t>> Trace::likely_pairs(const std::vector<Hypothesis>& all,
+                                                                  const std::vector<ProbeScene>& probes) const {
+  constexpr std::size_t kMostTried = 24;
+  std::vector<std::pair<std::size_t, std::pair<std::size_t, std::size_t>>> covers;
+  std::vector<std::set<std::size_t>> explained;
+  for (const Hypothesis& hypothesis : all) {
+    const auto own = explained_by(hypothesis, all);
+    explained.emplace_back(own.begin(), own.end());
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = i + 1; j < all.size() && !explained[i].empty(); ++j) {
+      std::set<std::size_t> both = explained[i];
+      both.insert(explained[j].begin(), explained[j].end());
+      if (both.size() > std::max(explained[i].size(), explained[j].size())) covers.push_back({both.size(), {i, j}});
+    }
+  }
+  std::stable_sort(covers.begin(), covers.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t n = 0; n < std::min(kMostTried, covers.size()); ++n) pairs.insert(covers[n].second);
+  const std::vector<Sum> added = sums(all);
+  for (std::size_t n = 0; n < std::min(kMostTried, added.size()); ++n) pairs.insert({added[n].first, added[n].second});
+  const std::vector<Suspect> alone = ranked(all, probes);
+  for (std::size_t other = 0; other < all.size() && !alone.empty(); ++other) {
+    if (other != alone.front().hypothesis) pairs.insert(std::minmax(alone.front().hypothesis, other));
+  }
+  return pairs;
 }
 
 }  // namespace rigor

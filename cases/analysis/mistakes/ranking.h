@@ -3,7 +3,9 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/analysis/mistakes/evidence.h"
@@ -47,6 +49,12 @@ class Trace {
     bool is_smooth = false;  // found where nothing touches, because the mistake shows there
   };
   Fit fit(const Hypothesis& hypothesis) const;
+  // Pairs to try, by index: those that explain different observations completely, those whose motions add up to the
+  // error, and the best single mistake with any other.
+  std::set<std::pair<std::size_t, std::size_t>> likely_pairs(const std::vector<Hypothesis>& all,
+                                                             const std::vector<ProbeScene>& probes) const;
+
+ private:
   // For all pairs i < j: the rest of the error, 0..1, if the motions of both mistakes simply added up.
   struct Sum {
     std::size_t first, second;
@@ -55,8 +63,6 @@ class Trace {
   std::vector<Sum> sums(const std::vector<Hypothesis>& hypotheses) const;
   // The observations, by index, that this mistake alone explains to a hundredth.
   std::vector<std::size_t> explained_by(const Hypothesis& hypothesis, const std::vector<Hypothesis>& all) const;
-
- private:
   Fit fit(const Hypothesis& hypothesis, bool of_contacts) const;
   bool is_seen(std::size_t observation) const;                                // the engine has a sight there
   bool is_seen(std::size_t observation, const Hypothesis& hypothesis) const;  // both have one

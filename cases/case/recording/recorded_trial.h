@@ -8,7 +8,7 @@
 
 namespace rigor {
 
-// By how much the length of a quaternion may differ from one: written with four digits it does by 2e-4.
+// The length of a quaternion may differ from one by so much. Written with four digits it does by 2e-4.
 inline constexpr double kUnitLength = 1e-3;
 
 // The samples of a body of the scene, which are added where there are none yet.

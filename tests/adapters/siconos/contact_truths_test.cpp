@@ -43,8 +43,8 @@ double friction_on_slope(const Vec3& lean, double friction) {
   return (along - (late - early) / 0.5) / (g * normal.z());
 }
 
-// The same by Siconos's own frame. Where the normal n is nearest to z, orthoBaseFromVector of its op3x3.h takes the
-// first tangent (0, -n_z, n_x), which is normal to n only if n_x = n_y.
+// The same by Siconos's own frame. Its orthoBaseFromVector (op3x3.h) takes (0, -n_z, n_x) as the first tangent of a
+// normal n that is nearest to z. The two are at right angles only if n_x = n_y.
 double friction_of_frame(const Vec3& lean, double friction) {
   const Vec3 n = (Vec3::UnitZ() + lean).normalized(), downhill = (n.z() * n - Vec3::UnitZ()).normalized();
   const Vec3 first = Vec3(0, -n.z(), n.x()).normalized(), second = n.cross(first);
@@ -91,8 +91,8 @@ BOOST_AUTO_TEST_CASE(friction_on_slopes_is_that_of_the_skewed_frame) {
       BOOST_TEST(std::abs(found - due) < 1e-5 * friction);
     }
   }
-  BOOST_TEST(friction_of_frame({0.45, 0, 0}, 0.3) < 0.95 * 0.3);  // short
-  BOOST_TEST(friction_of_frame({0, 0.45, 0}, 0.5) > 1.1 * 0.5);   // too large
+  BOOST_TEST(friction_on_slope({0.45, 0, 0}, 0.3) < 0.95 * 0.3);  // short
+  BOOST_TEST(friction_on_slope({0, 0.7, 0}, 0.5) > 1.1 * 0.5);    // too large
 }
 
 BOOST_AUTO_TEST_SUITE_END()

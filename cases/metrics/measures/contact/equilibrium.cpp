@@ -15,7 +15,8 @@ namespace {
 constexpr double kIndependent = 1e-4;
 // Of a unit row: what remains of it outside the row space. Roundings leave 1e-12, independent rows 1e-4 and more.
 constexpr double kInRowSpace = 1e-6;
-// Of the bodies' scale: loads that no forces at the points explain. The truth's velocities are good to 1e-9 of it.
+// Loads that no forces at the points explain may be so large, as a share of the bodies' scale. The truth's velocities
+// are good to 1e-9 of it.
 constexpr double kExplained = 1e-6;
 constexpr Eigen::Index kMostUnknowns = 600;  // of one island, whose decomposition then takes a second
 

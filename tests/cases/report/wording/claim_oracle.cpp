@@ -245,11 +245,13 @@ std::pair<double, double> stiffest(const Motions& motions) {
   for (Eigen::Index i = 0; i < count; ++i)
     K(i, i) = motions.elements[static_cast<std::size_t>(i)].k,
          C(i, i) = motions.elements[static_cast<std::size_t>(i)].c;
-  // High powers of a matrix keep its largest mode alone. Eigen's solver would find all, and takes a compiler half a
-  // minute.
+  // High powers of a matrix keep its largest mode alone. Eigen's solver would take a compiler half a minute.
   const Eigen::MatrixXd once = motions.response * K;
   Eigen::MatrixXd power = once / once.norm();
-  for (int doubled = 0; doubled < 40; ++doubled) power = (power * power).eval() / (power * power).norm();
+  for (int doubled = 0; doubled < 40; ++doubled) {
+    power = (power * power).eval();
+    power /= power.norm();
+  }
   Eigen::Index most = 0;
   power.colwise().norm().maxCoeff(&most);
   const Eigen::VectorXd x = power.col(most);  // the coordinates' amplitudes
@@ -283,7 +285,7 @@ double spectral_radius(const Eigen::Matrix2d& A) {
   return square < 0 ? std::sqrt(product) : std::abs(middle) + std::sqrt(square);
 }
 
-// By bisection: the largest dt at which the semi-implicit step's matrix has no eigenvalue beyond the unit circle.
+// The largest dt at which the semi-implicit step's matrix has no eigenvalue beyond the unit circle, by bisection.
 double semi_implicit_step(double w, double c) {
   const auto radius = [&](double h) {
     Eigen::Matrix2d step;
@@ -712,7 +714,7 @@ std::optional<double> of_cell(const Results& results, const Claim& claim) {
   return {};
 }
 
-// Of the distances at this step between the first run of each engine. Runs that blew up are no part of them.
+// A claim about the distances at this step between the first run of each engine. Runs that blew up have none.
 std::optional<double> distance_of_runs(const Results& results, const CaseResult& one, const Claim& claim) {
   std::map<std::string, std::string> first_of;  // by engine
   std::map<std::pair<std::string, std::string>, double> all;
