@@ -6,7 +6,7 @@ set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/../reports.cpp ${CMAKE_CUR
 set(page ${CMAKE_CURRENT_LIST_DIR}/page)
 set(page_build ${CMAKE_BINARY_DIR}/page)
 file(MAKE_DIRECTORY ${page_build})
-set(RIGOR_PAGE_MODULES ${page_build}/node_modules)
+set(RIGOR_PAGE_MODULES ${page_build}/node_modules CACHE INTERNAL "Packages of npm, for pages and their tests")
 
 if(NOT RIGOR_HTML_REPORT)
   get_target_property(sources rigor_cases_light SOURCES)
