@@ -22,6 +22,7 @@ constexpr double kAlike = 1e-3;  // suspects are alike if their rests differ by 
 constexpr std::size_t kShown = 5;
 constexpr double kMostOfMistake = 0.5;  // s of CPU time: some mistakes make scenes that take the core very long
 constexpr double kNotable = 0.3;
+constexpr double kMostTimes = 1000;  // of its amount in the table, by which a mistake is enlarged
 
 // Some engines get their loads as wrenches, which Rigor computes from the state that the engine reports. A wrong report
 // then also changes the motion. Such a mistake is compared in the loaded state alone, before any load acts.
@@ -189,7 +190,7 @@ std::vector<Hypothesis> MistakeFinder::larger_amounts(const Trace& trace, const 
   for (const Candidate& candidate : best_few(std::move(found), kMost)) {
     const Fault& fault = *candidate.hypothesis.fault;
     std::vector<Hypothesis> amounts;
-    for (const double times : {10.0, 100.0, 1000.0, -100.0}) {
+    for (const double times : {10.0, 100.0, kMostTimes, -100.0}) {
       const auto made = std::make_shared<Fault>(fault.by(times * fault.amount));
       amounts.push_back({made, {made->name}, {}});
     }
@@ -220,10 +221,12 @@ void MistakeFinder::add_amounts(const Trace& trace, const MistakeTable& table,
   }
   for (Candidate& candidate : best_few(std::move(found), kMost)) {
     Hypothesis at = std::move(candidate.hypothesis);
+    const double most = kMostTimes * std::abs(tried[candidate.row].fault->amount);
     double before = 0, fitted_before = 0;
     for (int round = 0; round < kRounds; ++round) {
       const double amount = at.fault->amount, fitted = trace.fit(at).factor * amount;
       const double next = round == 0 ? fitted : next_amount(amount, fitted, before, fitted_before);
+      if (std::abs(next) > most) break;
       if (next == 0 || !std::isfinite(next) || std::abs(next - amount) <= kSameAmount * std::abs(amount)) break;
       before = amount, fitted_before = fitted;
       const auto fault = std::make_shared<Fault>(at.fault->by(next));

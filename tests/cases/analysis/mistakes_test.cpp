@@ -302,6 +302,16 @@ BOOST_AUTO_TEST_CASE(damping_applied_twice_is_named_whatever_the_cases) {
   }
 }
 
+// Where a body hardly slides, a little less friction is as much more speed as seven times the gravity.
+BOOST_AUTO_TEST_CASE(no_amount_beyond_a_thousand_times_that_of_the_table_is_named) {
+  const Fault less_friction = faulty::on_loading("friction off by -10 %", [](Scene& scene) {
+    scene.contact_default.friction *= 0.9;
+    for (ContactPair& pair : scene.contact_pairs) pair.law.friction *= 0.9;
+  });
+  const MistakeReport report = finders().of("ode", less_friction, {"contact/slope-slides"});
+  BOOST_TEST((report.verdict == Verdict::unnamed), first_line(report));
+}
+
 // Of an engine that gets its loads from Rigor, what it tells wrongly counts as loaded alone: beside another mistake
 // such a one explains the few observations that the two are seen in as well as the other does by itself.
 BOOST_AUTO_TEST_CASE(a_mistake_alone_is_not_led_by_itself_with_another) {
