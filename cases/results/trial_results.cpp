@@ -1,5 +1,7 @@
 #include "cases/results/trial_results.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,6 +40,10 @@ std::vector<TrialResult> trials_of(const Cell& cell) {
     trials.push_back(std::move(trial));
   }
   return trials;
+}
+
+std::string recording_of_trial(const std::string& recorder, std::size_t trial) {
+  return trial == 0 ? recorder : fmt::format("{} of trial {}", recorder, trial);
 }
 
 std::optional<TrialSpread> spread_over(const std::vector<TrialResult>& trials, const std::string& metric) {

@@ -29,6 +29,9 @@ struct TrialSpread {
 void keep_trials(Cell& cell, const std::vector<TrialResult>& trials);
 std::vector<TrialResult> trials_of(const Cell& cell);  // none for a cell without trials
 
+// The name under which a recorder's result for the k-th trial travels: for the first, the recorder's own.
+std::string recording_of_trial(const std::string& recorder, std::size_t trial);
+
 // None where no trial has a value.
 std::optional<TrialSpread> spread_over(const std::vector<TrialResult>& trials, const std::string& metric);
 

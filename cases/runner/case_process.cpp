@@ -15,6 +15,7 @@
 #include "cases/runner/journal/case_journal.h"
 #include "cases/runner/shards/shard.h"
 #include "cases/runner/stable_step.h"
+#include "cases/runner/trials/trials.h"
 #include "cases/truth/recorded/recorded_motion.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
@@ -316,10 +317,7 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   const double seconds = is_long ? stability_horizon(definition) : definition.duration;
   const auto truth = truth_of(definition, seconds);
   TruthFacts facts = facts_of(definition, truth.get());
-  for (const auto& recorder : options.recorders) {
-    Recording kept = truth ? recorder->of_truth(definition, *truth, facts) : Recording();
-    if (!kept.empty()) facts.recordings[recorder->name()] = std::move(kept);
-  }
+  if (truth) facts.recordings = recordings_of_truth(definition, *truth, facts, options.recorders);
   CaseJobs jobs(grid, planned, engines, options, truth.get(), facts);
   const std::string message = message_of_truth(facts);
   channel.send(message);  // from here on each job has its own limit

@@ -24,6 +24,8 @@ class Recorder {
   // Once a cell that was simulated and judged.
   virtual Recording of_run(const Case& definition, const Cell& cell, const JudgedRun& run,
                            const std::vector<NamedSeries>& series, const TruthFacts& facts) const = 0;
+  // Of a recording with trials: whether it keeps each trial, or else the first one alone.
+  virtual bool keeps_each_trial() const { return false; }
   // The cell failed: removes files that were kept for it.
   virtual void discard(const Cell& cell) const = 0;
   // Whether the files of a cell still exist, for a run that continues from another's journal.

@@ -80,10 +80,22 @@ void shorten_case(Json& one) {
   one["observed_order"] = std::move(orders);
 }
 
+// The page draws the mean errors of each trial.
+void shorten_trials(Json& trials) {
+  for (Json& trial : trials) {
+    Json kept = Json::object();
+    for (auto& [name, value] : trial["metrics"].items())
+      if (name.starts_with("mean_")) kept[name] = value;
+    trial["metrics"] = std::move(kept);
+    if (trial["status"] == "pass") trial.erase("status");
+  }
+}
+
 // Of a cell's gates the page counts those that failed; the case's gates say the rest.
 void shorten_cell(Json& cell, double duration) {
   cell.erase("trajectory"), cell.erase("wall_seconds");
   shorten_metrics(cell["metrics"], duration);
+  if (cell.contains("trials")) shorten_trials(cell["trials"]);
   Json failed = Json::array();
   for (const Json& gate : cell["gates"])
     if (gate["answer"] == "failed") failed.push_back({{"answer", "failed"}});
@@ -132,13 +144,16 @@ std::string results_data(const Results& results) {
   return base64(deflated(json.dump(-1, ' ', kOnlyAscii, Json::error_handler_t::replace)));
 }
 
+// The motions of the trials stand in a list; a case without trials has one motion.
+Json motion_json(const Motions& motions) { return motions.size() == 1 ? Json(motions.front()) : Json(motions); }
+
 Json playbacks(const Results& results, std::size_t budget) {
   const PlaybackChoice chosen(results, budget);
   Json cases = Json::array();
   for (const CaseResult& result : results.cases) {
     Json cells = Json::array();
-    for (const Cell& cell : result.cells) cells.push_back(chosen.of(result, cell));
-    cases.push_back({{"truth", chosen.of_truth(result)}, {"cells", cells}});
+    for (const Cell& cell : result.cells) cells.push_back(motion_json(chosen.of(result, cell)));
+    cases.push_back({{"truth", motion_json(chosen.of_truth(result))}, {"cells", cells}});
   }
   return {{"series", series_names()}, {"cases", cases}};
 }

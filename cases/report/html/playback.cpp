@@ -11,10 +11,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/case/recording/recording.h"
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/report/html/motion.h"
 #include "cases/report/html/packed_series.h"
 #include "cases/report/html/thinning.h"
+#include "cases/results/trial_results.h"
 #include "core/dynamics/model/energy.h"
 
 namespace rigor {
@@ -158,10 +160,8 @@ double weight_of(const Case& definition, double seconds) {
 }
 constexpr double kTruth = std::numeric_limits<double>::infinity();  // stands for its dt
 
-const Packings& packings_in(const Recordings& recordings) {
-  static const Packings none;
-  const auto found = recordings.find(PlaybackRecorder::kName);
-  return found == recordings.end() ? none : found->second;
+std::size_t trials_in(const Case& definition) {
+  return definition.recording ? std::max<std::size_t>(1, definition.recording->trials.size()) : 1;
 }
 
 const std::string& finest_within(const Packings& packings, double size) {
@@ -170,6 +170,22 @@ const std::string& finest_within(const Packings& packings, double size) {
     if (static_cast<double>(text.size()) <= size) return text;
   }
   return none;
+}
+
+// Calls visit(motion) for each trial in order, with the finest packing within its share of `size`.
+template <typename Visit>
+void for_each_trial(const Case& definition, const Recordings& recordings, double size, const Visit& visit) {
+  const std::size_t trials = trials_in(definition);
+  static const Packings none;
+  for (std::size_t k = 0; k < trials; ++k) {
+    const auto found = recordings.find(recording_of_trial(PlaybackRecorder::kName, k));
+    visit(finest_within(found == recordings.end() ? none : found->second, size / static_cast<double>(trials)));
+  }
+}
+
+const Recordings& recordings_of_truth(const CaseResult& result) {
+  static const Recordings none;
+  return result.truth ? result.truth->recordings : none;
 }
 
 }  // namespace
@@ -207,7 +223,8 @@ PlaybackLimit::PlaybackLimit(const Results& grid) {
 
 std::size_t PlaybackLimit::of(const Case& definition, const StepSize* dt) const {
   const double even = kOfAllRuns * weight_of(definition, dt ? dt->seconds : kTruth) / weights_;
-  return static_cast<std::size_t>(std::min(kEvenShares * even, static_cast<double>(kMost)));
+  const double of_all_trials = std::min(kEvenShares * even, static_cast<double>(kMost));
+  return static_cast<std::size_t>(of_all_trials / static_cast<double>(trials_in(definition)));
 }
 
 Recording PlaybackRecorder::of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts) const {
@@ -222,16 +239,20 @@ Recording PlaybackRecorder::of_run(const Case& definition, const Cell& cell, con
 
 PlaybackChoice::PlaybackChoice(const Results& results, std::size_t budget) {
   const auto total = [&](double scale) {
-    scale_ = scale;
     std::size_t sum = 0;
+    const auto add = [&](const CaseResult& result, const Recordings& recordings, double seconds) {
+      for_each_trial(result.definition, recordings, scale * weight_of(result.definition, seconds),
+                     [&](const std::string& motion) { sum += motion.size(); });
+    };
     for (const CaseResult& result : results.cases) {
-      sum += of_truth(result).size();
-      for (const Cell& cell : result.cells) sum += of(result, cell).size();
+      add(result, recordings_of_truth(result), kTruth);
+      for (const Cell& cell : result.cells) add(result, cell.recordings, cell.dt.seconds);
     }
     return sum;
   };
-  double fits = 0, too_much = 2.0 * kMost;  // of the latter each is at its finest
-  if (total(too_much) <= budget) return;
+  scale_ = 2.0 * kMost;  // each is at its finest
+  if (total(scale_) <= budget) return;
+  double fits = 0, too_much = scale_;
   for (int halving = 0; halving < 50; ++halving) {
     const double middle = 0.5 * (fits + too_much);
     (total(middle) <= budget ? fits : too_much) = middle;
@@ -239,14 +260,19 @@ PlaybackChoice::PlaybackChoice(const Results& results, std::size_t budget) {
   scale_ = fits;
 }
 
-const std::string& PlaybackChoice::of(const CaseResult& result, const Cell& cell) const {
-  return finest_within(packings_in(cell.recordings), scale_ * weight_of(result.definition, cell.dt.seconds));
+Motions PlaybackChoice::chosen(const CaseResult& result, const Recordings& recordings, double seconds) const {
+  Motions motions;
+  for_each_trial(result.definition, recordings, scale_ * weight_of(result.definition, seconds),
+                 [&](const std::string& motion) { motions.push_back(motion); });
+  return motions;
 }
 
-const std::string& PlaybackChoice::of_truth(const CaseResult& result) const {
-  static const Recordings none;
-  return finest_within(packings_in(result.truth ? result.truth->recordings : none),
-                       scale_ * weight_of(result.definition, kTruth));
+Motions PlaybackChoice::of(const CaseResult& result, const Cell& cell) const {
+  return chosen(result, cell.recordings, cell.dt.seconds);
+}
+
+Motions PlaybackChoice::of_truth(const CaseResult& result) const {
+  return chosen(result, recordings_of_truth(result), kTruth);
 }
 
 }  // namespace rigor

@@ -31,8 +31,8 @@ Packings packed_run(const JudgedRun& run, const std::vector<NamedSeries>& series
 Packings packed_truth(const Scene& scene, const Truth& truth, double duration, double largest_kinetic_energy,
                       std::size_t limit);
 
-// The largest number of characters for a cell, or, without dt, for the truth: some times its even share. No longer
-// packing need be kept.
+// The largest number of characters for a trial of a cell, or, without dt, of the truth: some times its even share. No
+// longer packing need be kept.
 class PlaybackLimit {
  public:
   explicit PlaybackLimit(const Results& grid);
@@ -50,6 +50,7 @@ class PlaybackRecorder : public Recorder {
   Recording of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts) const override;
   Recording of_run(const Case& definition, const Cell& cell, const JudgedRun& run,
                    const std::vector<NamedSeries>& series, const TruthFacts& facts) const override;
+  bool keeps_each_trial() const override { return true; }
   void discard(const Cell&) const override {}
   bool still_has(const Cell&) const override { return true; }
 
@@ -57,14 +58,18 @@ class PlaybackRecorder : public Recorder {
   PlaybackLimit limit_;
 };
 
+// The motions of a case without trials: one. Else one for each trial; empty where none is kept.
+using Motions = std::vector<std::string>;
+
 // How fine each can be for all to be of at most `budget` characters.
 class PlaybackChoice {
  public:
   PlaybackChoice(const Results& results, std::size_t budget);
-  const std::string& of(const CaseResult& result, const Cell& cell) const;
-  const std::string& of_truth(const CaseResult& result) const;
+  Motions of(const CaseResult& result, const Cell& cell) const;
+  Motions of_truth(const CaseResult& result) const;
 
  private:
+  Motions chosen(const CaseResult& result, const Recordings& recordings, double seconds) const;
   double scale_ = 0;  // characters for each unit of weight
 };
 

@@ -17,10 +17,10 @@ Json motions_of(const SiteData& data, const std::string& case_id, const Json& sh
   for (const Json& cell : shown.at("cells")) {
     const auto motion =
         data.merged.motions.find({case_id, cell.at("engine").get<std::string>(), cell.at("dt").get<std::string>()});
-    cells.push_back(motion == data.merged.motions.end() ? "" : motion->second);
+    cells.push_back(motion == data.merged.motions.end() ? Json("") : motion->second);
   }
   const auto truth = data.merged.truth_motions.find(case_id);
-  const Json of_truth = truth == data.merged.truth_motions.end() ? Json("") : Json(truth->second);
+  const Json of_truth = truth == data.merged.truth_motions.end() ? Json("") : truth->second;
   return {{"series", data.merged.series}, {"cases", Json::array({{{"truth", of_truth}, {"cells", cells}}})}};
 }
 

@@ -11,12 +11,12 @@
 namespace rigor {
 
 struct MergedResults {
-  Json results = nullptr;       // a results.json of all current cells; engines[].made_by is the version of Rigor
-  Json shown = nullptr;         // the same as the page of a case shows it, with more details and fewer digits
-  Json series = Json::array();  // the names that a motion's series stand for
-  std::map<CellKey, std::string> motions;            // packed, see report/html/playback.h
-  std::map<std::string, std::string> truth_motions;  // by case
-  std::vector<HistoryEntry> history;                 // the oldest first
+  Json results = nullptr;           // a results.json of all current cells; engines[].made_by is the version of Rigor
+  Json shown = nullptr;             // the same as the page of a case shows it, with more details and fewer digits
+  Json series = Json::array();      // the names that a motion's series stand for
+  std::map<CellKey, Json> motions;  // packed, see report/html/playback.h
+  std::map<std::string, Json> truth_motions;  // by case
+  std::vector<HistoryEntry> history;          // the oldest first
 };
 
 // The folders are given from the oldest to the newest. Of a run, only its newest version is current, where the version

@@ -46,12 +46,12 @@ void take_motions_of(const Json& shown, Json& motions, WrittenFolder& out) {
   std::map<std::string, std::size_t> places, next;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     places[word_at(cases[i], "id")] = i;
-    out.truth_motions[word_at(cases[i], "id")] = word_at(motions.at("cases")[i], "truth");
+    out.truth_motions[word_at(cases[i], "id")] = motions.at("cases")[i].at("truth");
   }
   for (const Json& cell : shown.at("cells")) {
     const std::string id = word_at(cell, "case");
     Json& packed = motions.at("cases")[places.at(id)].at("cells").at(next[id]++);
-    out.motions[cell_key_of(cell)] = packed.get<std::string>();
+    out.motions[cell_key_of(cell)] = std::move(packed);
   }
   out.series = motions.at("series");
 }

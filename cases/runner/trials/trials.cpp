@@ -11,7 +11,14 @@ namespace {
 struct Trials {
   std::vector<Cell> cells;
   std::vector<TrialResult> results;
+  Recordings recordings;  // of all trials
 };
+
+Recorders recorders_of_trial(const Recorders& all, std::size_t trial) {
+  Recorders chosen = all;
+  if (trial > 0) std::erase_if(chosen, [](const auto& recorder) { return !recorder->keeps_each_trial(); });
+  return chosen;
+}
 
 // From the best to the worst.
 int rank_of(Status status) {
@@ -79,6 +86,7 @@ Cell summary_of(const Trials& trials) {
       failed == 0 ? ""
                   : fmt::format("{} of {} trials; {}{}", failed, trials.cells.size(), name, trials.cells[worst].reason);
   for (auto& [metric, value] : cell.metrics) value = mean_of(metric, trials);
+  cell.recordings = trials.recordings;
   keep_trials(cell, trials.results);
   return cell;
 }
@@ -93,7 +101,7 @@ JudgedCell run_trials(const Case& definition, const std::shared_ptr<const Motion
     const Case one = case_of_trial(definition, *recording, k);
     const RecordedMotion truth(recording, k, one.scene);
     GridOptions of_trial = options;
-    if (k > 0) of_trial.recorders.clear();
+    of_trial.recorders = recorders_of_trial(options.recorders, k);
     Cell cell;
     try {
       JudgedCell judged = run(one, truth, facts_of(one, &truth), of_trial);
@@ -106,9 +114,31 @@ JudgedCell run_trials(const Case& definition, const std::shared_ptr<const Motion
     TrialResult result{recording->trials[k].name, cell.status, cell.reason, {}};
     for (const auto& [metric, value] : cell.metrics)
       if (value.not_applicable.empty()) result.metrics[metric] = value.value;
+    for (auto& [name, kept] : cell.recordings) trials.recordings[recording_of_trial(name, k)] = std::move(kept);
     trials.cells.push_back(std::move(cell)), trials.results.push_back(std::move(result));
   }
   return {summary_of(trials), path};
+}
+
+Recordings recordings_of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts,
+                               const Recorders& recorders) {
+  Recordings found;
+  const auto keep = [&](const Case& one, const Truth& of_one, const TruthFacts& facts_of_one, std::size_t trial) {
+    for (const auto& recorder : recorders_of_trial(recorders, trial)) {
+      Recording kept = recorder->of_truth(one, of_one, facts_of_one);
+      if (!kept.empty()) found[recording_of_trial(recorder->name(), trial)] = std::move(kept);
+    }
+  };
+  if (!definition.recording) {
+    keep(definition, truth, facts, 0);
+    return found;
+  }
+  for (std::size_t k = 0; k < definition.recording->trials.size(); ++k) {
+    const Case one = case_of_trial(definition, *definition.recording, k);
+    const RecordedMotion motion(definition.recording, k, one.scene);
+    keep(one, motion, facts_of(one, &motion), k);
+  }
+  return found;
 }
 
 }  // namespace rigor

@@ -14,8 +14,13 @@ namespace rigor {
 using RunTrial = std::function<JudgedCell(const Case& of_trial, const Truth& truth, const TruthFacts& facts,
                                           const GridOptions& options)>;
 
-// Recorders keep the first trial. The status is that of the worst trial, which the reason names.
+// Recorders keep the first trial, or each of them (Recorder::keeps_each_trial). The status is that of the worst trial,
+// which the reason names.
 JudgedCell run_trials(const Case& definition, const std::shared_ptr<const MotionRecording>& recording,
                       const GridOptions& options, const RunTrial& run);
+
+// What recorders keep of a case's truth, of a recording with trials as of each trial.
+Recordings recordings_of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts,
+                               const Recorders& recorders);
 
 }  // namespace rigor

@@ -2,8 +2,10 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <functional>
 
 #include "cases/case/recording/recording_reader.h"
+#include "cases/report/html/playback.h"
 #include "cases/report/wording/recorded_error.h"
 #include "cases/results/result_json.h"
 #include "cases/results/trial_results.h"
@@ -18,17 +20,84 @@ BOOST_AUTO_TEST_SUITE(cases_runner_trials)
 
 namespace {
 
-Results results_of(const std::string& path, const std::string& run = "core:velocity-verlet") {
+using RecordersOf = std::function<Recorders(const Results& grid)>;
+
+Results results_of(const std::string& path, const std::string& run = "core:velocity-verlet",
+                   const RecordersOf& recorders = {}) {
   const Case definition = read_case(path, "slide", test::words());
   Results grid =
       plan_grid({definition}, {parse_run_name(run, test::words().engines)}, engines(), {.stable_steps = false});
   GridOptions options;
   options.stable_steps = options.is_thorough = false;
+  if (recorders) options.recorders = recorders(grid);
   run_grid(grid, engines(), options, [](std::size_t, std::size_t) {});
   return grid;
 }
 
+// Keeps the start of each run's first body along x, as a text.
+class StartRecorder : public Recorder {
+ public:
+  explicit StartRecorder(bool keeps_each_trial) : keeps_each_trial_(keeps_each_trial) {}
+  std::string name() const override { return keeps_each_trial_ ? "each" : "first"; }
+  Recording of_truth(const Case& definition, const Truth&, const TruthFacts&) const override {
+    return {std::to_string(definition.scene.bodies[0].velocity.x())};
+  }
+  Recording of_run(const Case&, const Cell&, const JudgedRun& run, const std::vector<NamedSeries>&,
+                   const TruthFacts&) const override {
+    return {std::to_string(run.scene.bodies[0].velocity.x())};
+  }
+  bool keeps_each_trial() const override { return keeps_each_trial_; }
+  void discard(const Cell&) const override {}
+  bool still_has(const Cell&) const override { return true; }
+
+ private:
+  bool keeps_each_trial_;
+};
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(a_recorder_keeps_each_trial_if_it_says_so_and_else_the_first) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 3, 1));
+  const Results grid = results_of(
+      folder.write("slide.toml", test::recorded_case(0.4, "slide.csv")), "core:velocity-verlet", [](const Results&) {
+        return Recorders{std::make_shared<StartRecorder>(true), std::make_shared<StartRecorder>(false)};
+      });
+  const auto& trials = grid.cases[0].definition.recording->trials;
+  BOOST_TEST_REQUIRE(grid.cases[0].truth.has_value());
+  for (const Recordings& kept : {grid.cases[0].cells[0].recordings, grid.cases[0].truth->recordings}) {
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+      const std::string start = std::to_string(trials[k].bodies[0].velocities[0].x());
+      BOOST_TEST_REQUIRE(kept.contains(recording_of_trial("each", k)));
+      BOOST_TEST(kept.at(recording_of_trial("each", k)).front() == start);
+      BOOST_TEST(kept.contains(recording_of_trial("first", k)) == (k == 0));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_page_gets_a_motion_of_every_trial) {
+  Folder folder;
+  folder.write("slide.csv", test::sliding_recording(0.3, 3, 1));
+  const Results grid =
+      results_of(folder.write("slide.toml", test::recorded_case(0.4, "slide.csv")), "core:velocity-verlet",
+                 [](const Results& planned) { return Recorders{std::make_shared<PlaybackRecorder>(planned)}; });
+  const PlaybackChoice chosen(grid, 100'000);
+  const Motions run = chosen.of(grid.cases[0], grid.cases[0].cells[0]), truth = chosen.of_truth(grid.cases[0]);
+  for (const Motions& motions : {run, truth}) {
+    BOOST_TEST_REQUIRE(motions.size() == 3u);
+    for (const std::string& motion : motions) BOOST_TEST(!motion.empty());
+    BOOST_TEST((motions[0] != motions[1] && motions[1] != motions[2]));
+  }
+  // Of a small page each trial takes about an equal share.
+  const PlaybackChoice few(grid, 2000);
+  std::size_t sum = 0;
+  for (const Motions& motions : {few.of(grid.cases[0], grid.cases[0].cells[0]), few.of_truth(grid.cases[0])})
+    for (const std::string& motion : motions) {
+      BOOST_TEST(!motion.empty());
+      sum += motion.size();
+    }
+  BOOST_TEST(sum <= 2000u);
+}
 
 BOOST_AUTO_TEST_CASE(each_trial_runs_from_its_own_start_and_the_mean_is_over_them) {
   Folder folder;
@@ -135,8 +204,8 @@ BOOST_AUTO_TEST_CASE(bad_keys_are_refused_with_their_place) {
   says(refusal("slide.csv", "../slide.csv"), "not in the case file's folder");
 }
 
-// Each of two trials of 0.2 s makes two pieces of 0.1 s. Friction that is a third too large makes a quarter of the error
-// in half the time.
+// Each of two trials of 0.2 s makes two pieces of 0.1 s. Friction that is a third too large makes a quarter of the
+// error in half the time.
 BOOST_AUTO_TEST_CASE(pieces_of_trials_are_trials_with_starts_of_their_own) {
   Folder folder;
   folder.write("slide.csv", test::sliding_recording(0.3, 2, 1));

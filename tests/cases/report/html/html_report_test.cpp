@@ -116,6 +116,19 @@ BOOST_AUTO_TEST_CASE(contact_forces_are_drawn_and_plotted) {
   BOOST_TEST(opens_well("force_page_test.mjs", folder, out + "/report.html", out + "/results.json", "forces"));
 }
 
+BOOST_AUTO_TEST_CASE(every_trial_of_a_recording_can_be_played) {
+  Folder folder;
+  const std::string out = (folder.path / "out").string();
+  BOOST_TEST_REQUIRE(
+      succeeds(std::string(RIGOR_PROGRAM) +
+                   " run reality/synthetic-tosses springs/fixed-spring --dt 1/296 --engine ode --engine bullet "
+                   "--jobs 2 --out " +
+                   out,
+               folder));
+  BOOST_TEST(is_valid(out + "/results.json", folder));
+  BOOST_TEST(opens_well("trial_page_test.mjs", folder, out + "/report.html", out + "/results.json", "trials"));
+}
+
 BOOST_AUTO_TEST_CASE(names_that_would_do_harm_and_runs_of_every_ending_are_shown) {
   Folder folder;
   Results grid = sample_results();

@@ -15,6 +15,7 @@ import { commands, repairs } from "./repair.js";
 import { schemeSplit } from "./scheme_tables.js";
 import { Stage } from "./stage.js";
 import { TimePlots } from "./time_plots.js";
+import { errorOfTrial, nextTrial, trialBar, trialOf, trialSpread } from "./trials.js";
 import { onChange, openAll, openCase, set, site, state } from "./state.js";
 
 const shownAtFirst = 6;
@@ -42,6 +43,7 @@ export class CaseView {
     });
     (this.across = el("div.across")), (this.fan = el("div.fan"));
     this.steps = el("div.segments", { role: "group", "aria-label": "Step size" });
+    (this.trials = el("div.trial-bar")), (this.spread = el("div.spread"));
     replace(root, caseHeading(this), this.bar(), el("div.motion", {}, this.stageBox, el("div.beside-motion", {}, this.chart.root, this.plotsBox)), this.parting?.root, this.across);
     this.drawAnswer();
     this.stop = onChange((changed) => this.follow(changed));
@@ -120,7 +122,7 @@ export class CaseView {
 
   // It stays in sight; the picture below it has to know how high it is.
   bar() {
-    const bar = el("div.bar", {}, this.steps, this.chips);
+    const bar = el("div.bar", {}, this.steps, this.trials, this.chips);
     this.barSize = new ResizeObserver(() => this.root.style.setProperty("--bar", `${bar.offsetHeight}px`));
     this.barSize.observe(bar);
     return bar;
@@ -137,13 +139,15 @@ export class CaseView {
         ),
       ),
     );
+    replace(this.trials, trialBar(this.context));
     const shown = new Set(this.shown.map((e) => e.name));
     const chip = (engine, i) => {
       const cell = cellOf(this.one, engine.name, this.dt.text),
         verdict = judgement(cell);
-      const value = hasNumbers(cell)
-        ? quantity(cell.metrics[this.one.main]?.value, this.results.units[this.one.main])
-        : "";
+      const error = this.one.trials.length
+        ? errorOfTrial(this.one, cell, trialOf(this.one))
+        : cell.metrics?.[this.one.main]?.value;
+      const value = hasNumbers(cell) ? quantity(error, this.results.units[this.one.main]) : "";
       return el(
         `button.chip${engine.stock ? ".is-stock" : ""}`,
         {
@@ -187,22 +191,25 @@ export class CaseView {
   }
 
   async load() {
-    const wanted = this.dt.text;
+    const wanted = this.dt.text,
+      trial = trialOf(this.one),
+      isOutdated = () => this.closed || wanted !== this.dt.text || trial !== trialOf(this.one);
     this.drawBar(), this.drawAcross(), this.drawAnswer();
-    const data = await loadCase(this.results, this.one, wanted);
-    if (this.closed || wanted !== this.dt.text) return;
+    const data = await loadCase(this.results, this.one, wanted, trial);
+    if (isOutdated()) return;
     this.data = data;
     this.stage?.close(), this.plots?.close();
     this.player.dt = this.dt.seconds;
+    this.player.duration = (this.one.trials.length && data.truth?.last) || this.one.duration;
     this.stage = new Stage(this.results, this.one, data, this.player, this.stageBox);
     this.stage.show(this.shown);
     await pause();
-    if (this.closed || wanted !== this.dt.text) return;
+    if (isOutdated()) return;
     this.plots = new TimePlots(this.results, this.one, data, this.player, this.plotsBox);
     this.plots.show(this.shown);
     this.drawFan();
-    this.player.seek(Math.min(state.time, this.one.duration));
-    this.root.dataset.loaded = `${this.one.id} ${wanted}`;
+    this.player.seek(Math.min(state.time, this.player.duration));
+    this.root.dataset.loaded = [this.one.id, wanted, this.one.trials[trial]].join(" ").trim();
   }
 
   get context() {
@@ -217,6 +224,13 @@ export class CaseView {
     replace(this.fan, fan ? part("friction", "Friction by direction", text, fan) : null);
   }
 
+  // Each trial's error; the one that is played stands out.
+  drawSpread() {
+    const spread = trialSpread(this.context),
+      text = "Each dot is a trial, and the line is the median. Click a dot to play its trial beside the recorded motion.";
+    replace(this.spread, spread ? part("trials", "Trials", text, spread) : null);
+  }
+
   drawAcross() {
     const { context } = this;
     const split = schemeSplit(context),
@@ -225,6 +239,7 @@ export class CaseView {
     replace(
       this.across,
       part("numbers", `At dt = ${this.dt.text} s`, null, numbersTable(context)),
+      this.spread,
       this.fan,
       split
         ? part(
@@ -262,7 +277,7 @@ export class CaseView {
       part("settings", "Settings in force", "As read back from each engine in this case.", settingsTable(context)),
       part("file", "The case file", null, sceneFile(this.one)),
     );
-    this.drawFan();
+    this.drawFan(), this.drawSpread();
   }
 
   follow(changed) {
@@ -270,6 +285,8 @@ export class CaseView {
     if (changed.has("tolerance")) this.drawAnswer(), this.drawAcross();
     if (changed.has("dt") && dtOf(this.one, state.dt).text !== this.dt.text) {
       this.dt = dtOf(this.one, state.dt);
+      this.load();
+    } else if (changed.has("trial")) {
       this.load();
     } else if (changed.has("engines")) {
       this.drawBar(), this.drawAcross();
@@ -298,7 +315,7 @@ export class CaseView {
       ArrowLeft: () => player.step(event.shiftKey ? -10 : -1),
       ArrowRight: () => player.step(event.shiftKey ? 10 : 1),
       Home: () => player.seek(0),
-      End: () => player.seek(this.one.duration),
+      End: () => player.seek(player.duration),
       a: () => this.show(this.runnable),
       n: () => this.show([]),
       o: () => set({ layout: "overlay" }),
@@ -313,6 +330,8 @@ export class CaseView {
       f: () => this.stage?.frameAll(),
       l: () => set({ log: !state.log }),
       z: () => set({ zoom: null }),
+      ",": () => nextTrial(this.one, -1),
+      ".": () => nextTrial(this.one, 1),
       j: () => this.goTo(at + 1),
       k: () => this.goTo(at - 1),
       d: () =>

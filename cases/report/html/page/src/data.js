@@ -83,6 +83,7 @@ function indexed(results, playback) {
       index: i,
       cells: [],
       stable: new Map(),
+      trials: [], // names; none for a truth without trials
       truthPlayback: playback.cases[i].truth,
       main: one.main_error ?? "position_error",
     });
@@ -94,6 +95,7 @@ function indexed(results, playback) {
     const one = results.caseById.get(cell.case);
     cell.playback = playback.cases[one.index].cells[one.cells.length];
     one.cells.push(cell);
+    if (!one.trials.length) one.trials = (cell.trials ?? []).map(({ trial }) => trial);
   }
   for (const stable of results.stable_dt) results.caseById.get(stable.case).stable.set(stable.engine, stable);
   results.dts = distinctDts(results.cases);

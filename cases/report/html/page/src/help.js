@@ -14,6 +14,7 @@ const keys = [
   ["l", "plots logarithmic or linear"],
   ["z", "the whole time in the plots"],
   ["d", "the next step size"],
+  [", .", "the trial before, the next one"],
   ["j k", "the next case, the one before"],
   ["esc", "all cases"],
   ["?", "this"],

@@ -177,17 +177,21 @@ export async function loadPlayback(text, courseNames) {
   return { isLikeTruth, motion: motion.times.length ? motion : null, series, forces, last, bodies };
 }
 
-// All of one case at one step: the truth and each engine that ran.
-export async function loadCase(results, one, dtText) {
-  const truth = await loadPlayback(one.truthPlayback, results.series);
+// Of a case with trials each has its own motion.
+const ofTrial = (motion, trial) => (Array.isArray(motion) ? motion[trial] : motion);
+
+// All of one case at one step, of its trial with that number: the truth and each engine that ran.
+export async function loadCase(results, one, dtText, trial = 0) {
+  const truth = await loadPlayback(ofTrial(one.truthPlayback, trial), results.series);
   const runs = new Map();
   for (const cell of one.cells) {
-    if (cell.dt !== dtText || !cell.playback) continue;
-    const run = await loadPlayback(cell.playback, results.series);
+    const packed = ofTrial(cell.playback, trial);
+    if (cell.dt !== dtText || !packed) continue;
+    const run = await loadPlayback(packed, results.series);
     if (run.isLikeTruth) run.motion = truth?.motion ?? null;
     runs.set(cell.engine, run);
   }
-  return { dt: dtText, truth, runs };
+  return { dt: dtText, trial, truth, runs };
 }
 
 export function valueAt(course, t) {

@@ -42,6 +42,8 @@ function rowOf(context, run, tolerance) {
 
 export function repairs(context, tolerance) {
   if (context.one.truth.kind === "none") return el("p.fine", {}, "No error is known here, so nothing can be said to reduce it.");
+  if (context.one.truth.kind === "recording")
+    return el("p.fine", {}, "The error is a mean over a recording. rigor fit finds the values of the scene and the settings with which an engine predicts it best.");
   const rows = context.shown.filter((run) => !run.core).map((run) => rowOf(context, run, tolerance)).filter(Boolean);
   return rows.length ? rows : el("p.fine", {}, "Nothing to repair: every engine shown is within the tolerance.");
 }
@@ -49,9 +51,12 @@ export function repairs(context, tolerance) {
 export function commands({ one, dt, shown }, tolerance) {
   const first = (shown.find((e) => !e.core) ?? shown[0])?.name;
   const chosen = shown.map((e) => ` --engine '${e.name}'`).join("").replaceAll(/'([\w:@,=.-]+)'/g, "$1");
+  const isComputed = !["none", "recording"].includes(one.truth.kind),
+    isFriction = one.truth.kind === "recording" && one.scene.contact_default;
   const rows = [
     ["Run it again", `rigor run ${one.id} --dt ${dt.text}${chosen}`],
-    first && one.truth.kind !== "none" ? ["Find the cheapest setting", `rigor tune ${one.id} --engine ${first.split(/[:@,]/)[0]} --within ${Number((1000 * tolerance).toPrecision(3))}mm`] : null,
+    first && isFriction ? ["Fit the friction", `rigor fit ${one.id} --engine ${first} --dt ${dt.text} --vary scene.contact_default.friction=0.02..0.6`] : null,
+    first && isComputed ? ["Find the cheapest setting", `rigor tune ${one.id} --engine ${first.split(/[:@,]/)[0]} --within ${Number((1000 * tolerance).toPrecision(3))}mm`] : null,
     first ? ["Keep its motion", `rigor trace ${one.id} --engine ${first} --dt ${dt.text} > run.csv`] : null,
   ].filter(Boolean);
   return el("dl.commands", {}, rows.map(([label, command]) => [el("dt", {}, label), el("dd", {}, el("code", {}, command), copied(command))]));

@@ -89,7 +89,7 @@ export class Stage {
     this.slider = el("input", {
       type: "range",
       min: 0,
-      max: this.one.duration,
+      max: this.player.duration,
       step: "any",
       value: 0,
       "aria-label": "Time",
@@ -212,12 +212,12 @@ export class Stage {
   markFailures() {
     const marks = this.engines
       .map((engine) => [engine, failedAt(this.cell(engine))])
-      .filter(([, time]) => time !== null && time <= this.one.duration)
+      .filter(([, time]) => time !== null && time <= this.player.duration)
       .map(([engine, time]) =>
         el(
           "span",
           {
-            style: { left: `${(100 * time) / this.one.duration}%`, "--engine": `var(--e${engine.index})` },
+            style: { left: `${(100 * time) / this.player.duration}%`, "--engine": `var(--e${engine.index})` },
             title: `${engine.name}: ${judgement(this.cell(engine)).word}`,
           },
           "✕",
@@ -275,7 +275,7 @@ export class Stage {
     for (const layer of new Set(panes.flatMap((p) => p.layers))) {
       layer.motion.posesAt(time, layer.poses);
       layer.isGone =
-        time > layer.motion.end + 1.5 * this.player.dt && layer.motion.end < this.one.duration - 1.5 * this.player.dt;
+        time > layer.motion.end + 1.5 * this.player.dt && layer.motion.end < this.player.duration - 1.5 * this.player.dt;
       layer.contacts =
         this.flags.contacts && !layer.isGone && layer.name !== "truth" ? contacts(this.shapes, layer.poses, near) : [];
       layer.jointed = this.jointed(layer);
@@ -293,7 +293,7 @@ export class Stage {
     this.label(panes, width, height);
     const kept = this.engines.filter((e) => !this.layers.has(e.name));
     const horizon = this.one.truth.horizon,
-      past = this.flags.truth && this.layers.has("truth") && horizon !== undefined && time > horizon + 1e-9;
+      past = this.one.truth.kind !== "recording" && this.flags.truth && this.layers.has("truth") && horizon !== undefined && time > horizon + 1e-9;
     const text = [
       this.note,
       failed.length ? `✕ Failed, drawn in red: ${failed.join(", ")}.` : "",

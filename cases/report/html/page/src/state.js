@@ -8,6 +8,7 @@ const listeners = new Set();
 export const state = {
   case: "", // id; "" is the first page
   dt: "", // as written
+  trial: "", // the name of the trial that is played; "": the first
   engines: null, // names that are shown; null: the choice the page makes
   time: 0, // s, of the playback and the plots' cursor
   show: "main", // what the matrix shows
@@ -32,7 +33,7 @@ export function set(changes, { push = false } = {}) {
 
 // Shows a case from its start, with the named engines, or those that the page chooses.
 export const openCase = (id, changes = {}) =>
-  set({ case: id, time: 0, zoom: null, engines: null, ...changes }, { push: true });
+  set({ case: id, time: 0, zoom: null, trial: "", engines: null, ...changes }, { push: true });
 
 // The address of the list of all cases, and the way to it.
 export const addressOfAll = () => site?.all ?? address({ case: "" });
@@ -53,6 +54,7 @@ export function address(changes = {}) {
   for (const key of ["family", "sort", "verdict", "filter"]) if (view[key] !== defaults[key]) query.set(key, view[key]);
   if (view.case) {
     if (view.engines) query.set("engines", [...view.engines].join("~"));
+    if (view.trial !== defaults.trial) query.set("trial", view.trial);
     if (view.time > 0) query.set("t", Number(view.time.toFixed(4)));
     if (view.layout !== defaults.layout) query.set("layout", view.layout);
     if (!view.log) query.set("log", "0");
@@ -92,6 +94,7 @@ function fromAddress() {
   return {
     case: id,
     dt: given.get("dt") ?? "",
+    trial: given.get("trial") ?? "",
     engines: given.has("engines") ? new Set(given.get("engines").split("~").filter(Boolean)) : null,
     time: Math.max(0, number(given.get("t"), 0)),
     show: given.get("show") ?? "main",

@@ -240,7 +240,7 @@ export class TimePlots {
         drag: { x: true, y: false, setScale: false },
         bind: { dblclick: () => () => set({ zoom: null }) },
       },
-      scales: { x: { time: false, range: () => state.zoom ?? [0, this.one.duration] }, y: { range: scale.range } },
+      scales: { x: { time: false, range: () => state.zoom ?? [0, this.player.duration] }, y: { range: scale.range } },
       axes: [
         { ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${Number(t.toPrecision(6))} s`) },
         { ...axis, size: 60, splits: scale.splits, values: (u, ticks) => ticks.map(scale.tick) },
@@ -328,7 +328,7 @@ export class TimePlots {
   }
 
   redraw(changed) {
-    const [min, max] = state.zoom ?? [0, this.one.duration];
+    const [min, max] = state.zoom ?? [0, this.player.duration];
     if (changed.has("log")) this.draw();
     else for (const { chart } of this.plots) chart.setScale("x", { min, max });
   }
