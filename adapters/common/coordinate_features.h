@@ -5,8 +5,8 @@
 
 namespace rigor {
 
-inline const Features kCoordinateFeatures = {Feature::joint_spring,        Feature::joint_damper,
-                                             Feature::joints_with_dampers, Feature::motor_effort,
-                                             Feature::motor_servo,         Feature::motor_table};
+inline const Features kCoordinateFeatures = {
+    Feature::joint_spring, Feature::quadratic_spring, Feature::joint_damper, Feature::joints_with_dampers,
+    Feature::motor_effort, Feature::motor_servo,      Feature::motor_table};
 
 }  // namespace rigor

@@ -117,7 +117,7 @@ class SkeletonMaker {
 
   static void drive(const DartBodies::Coordinate& at, const Joint& joint) {
     at.joint->setRestPosition(0, at.sign * joint.rest);  // before the limits, which it may be beyond
-    at.joint->setSpringStiffness(0, joint.stiffness);
+    at.joint->setSpringStiffness(0, joint.quadratic_stiffness > 0 ? 0 : joint.stiffness);  // else a load
     at.joint->setDampingCoefficient(0, joint.damping);
     if (!joint.has_limits()) return;
     at.joint->setPositionLowerLimit(0, at.sign > 0 ? joint.lower : -joint.upper);

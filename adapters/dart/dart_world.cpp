@@ -35,12 +35,16 @@ constexpr double kDartRunaway = 1e50;
 
 bool runs_away(const Vec3& v) { return !(v.squaredNorm() < kDartRunaway * kDartRunaway); }
 
-// The loads that DART does not have: springs and forces, motors of effort, and the drives of joints that close loops.
+// The loads that DART does not have: springs and forces, motors of effort, the drives of joints that close loops, and
+// springs of joints whose stiffness grows.
 Scene external_part(const Scene& scene, const SpanningTree& tree) {
   Scene left;
   left.bodies = scene.bodies, left.springs = scene.springs, left.forces = scene.forces, left.joints = scene.joints;
   for (const SpanningTree::Link& link : tree.links) {
-    if (link.joint >= 0) left.joints[link.joint].stiffness = left.joints[link.joint].damping = 0;
+    if (link.joint < 0) continue;
+    Joint& joint = left.joints[link.joint];
+    joint.damping = 0;
+    if (joint.quadratic_stiffness == 0) joint.stiffness = 0;
   }
   for (const Motor& motor : scene.motors) {
     if (!motor.speed) left.motors.push_back(motor);
@@ -146,7 +150,7 @@ DartWorld::DartWorld(const Scene& scene, const Settings& settings)
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
     const bool winds = made_.coordinates[k].joint && turns(joint);
-    if (winds && joint.stiffness > 0 && !joint.has_limits()) wound_.push_back(k);
+    if (winds && joint.stiffness > 0 && joint.quadratic_stiffness == 0 && !joint.has_limits()) wound_.push_back(k);
   }
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
     const int joint = tree.links[i].joint;

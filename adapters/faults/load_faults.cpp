@@ -35,7 +35,7 @@ void drop_reactions(Moment& moment) {
   for (const Spring& spring : moment.scene.springs) {
     if (spring.a == kWorld || spring.b == kWorld) continue;
     const Vec3 line = end_of(moment.scene, spring.b, spring.point_b) - end_of(moment.scene, spring.a, spring.point_a);
-    const Vec3 on_a = spring.stiffness * (line.norm() - spring.rest_length) * line.normalized();
+    const Vec3 on_a = elastic_effort(spring, line.norm() - spring.rest_length) * line.normalized();
     push(moment.scene.bodies[spring.a], -moment.dt * on_a, spring.point_a);
   }
 }
@@ -43,7 +43,7 @@ void drop_reactions(Moment& moment) {
 void slacken_when_short(Moment& moment) {
   for (Spring& spring : moment.scene.springs) {
     const Vec3 line = end_of(moment.scene, spring.b, spring.point_b) - end_of(moment.scene, spring.a, spring.point_a);
-    if (line.norm() < spring.rest_length) spring.stiffness = 0;
+    if (line.norm() < spring.rest_length) spring.stiffness = spring.quadratic_stiffness = 0;
   }
 }
 
@@ -86,7 +86,9 @@ Fault spring_by(const std::string& pattern, double amount, F change) {
 std::vector<Fault> spring_faults() {
   return {
       spring_by("spring stiffness off by {} %", 0.1,
-                [](Spring& s, double percent) { s.stiffness *= 1 + percent / 100; }),
+                [](Spring& s, double percent) {
+                  s.stiffness *= 1 + percent / 100, s.quadratic_stiffness *= 1 + percent / 100;
+                }),
       on_loading("spring counted twice",
                  [](Scene& s) {
                    if (!s.springs.empty()) s.springs.push_back(Spring(s.springs.back()));

@@ -68,6 +68,7 @@ class Exporter {
     if (scene_.contact_default.restitution > 0) leave_out("restitution", "MuJoCo has none");
     if (scene_.contact_default.resists_turning())
       leave_out("rolling and torsional friction", "MuJoCo combines them with the sliding friction in one cone");
+    leave_out_quadratic_springs();
     if (scene_.contact_default.is_soft()) leave_out("stiffness of contacts", "MuJoCo's is per mass");
     for (const TimedForce& force : scene_.forces)
       leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "MuJoCo's files have no timed forces");
@@ -222,6 +223,13 @@ class Exporter {
       text +=
           fmt::format(R"( limited="true" range="{} {}")", std::max(joint.lower, -kFar), std::min(joint.upper, kFar));
     return text;
+  }
+
+  void leave_out_quadratic_springs() {
+    const auto grows = [](const auto& row) { return row.quadratic_stiffness > 0; };
+    if (std::any_of(scene_.springs.begin(), scene_.springs.end(), grows) ||
+        std::any_of(scene_.joints.begin(), scene_.joints.end(), grows))
+      leave_out("quadratic_stiffness of springs", "those of the file are linear");
   }
 
   void add_springs() {

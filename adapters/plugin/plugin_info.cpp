@@ -174,7 +174,7 @@ std::optional<Feature> declared_feature(const std::string& word) {
 // Forces and torques on the bodies are all that these need.
 Features with_wrenches(Features features) {
   if (!features.contains(Feature::wrench)) return features;
-  features.insert({Feature::spring, Feature::timed_force});
+  features.insert({Feature::spring, Feature::quadratic_spring, Feature::timed_force});
   if (std::any_of(features.begin(), features.end(), is_joint))
     features.insert({Feature::joint_damper, Feature::joint_spring, Feature::joints_with_dampers, Feature::motor_effort,
                      Feature::motor_servo, Feature::motor_table});
@@ -227,7 +227,7 @@ Scene loads_left_to_rigor(Scene scene, const PluginInfo& info) {
   if (does(Feature::timed_force) || !gets_wrenches) scene.forces.clear();
   std::erase_if(scene.motors, [&](const Motor& motor) { return !gets_wrenches || does(feature_of(motor)); });
   for (Joint& joint : scene.joints) {
-    if (does(Feature::joint_spring) || !gets_wrenches) joint.stiffness = 0;
+    if (does(Feature::joint_spring) || !gets_wrenches) joint.stiffness = joint.quadratic_stiffness = 0;
     if (does(Feature::joint_damper) || !gets_wrenches) joint.damping = 0;
   }
   return scene;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "adapters/common/spanning_tree.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
@@ -20,9 +22,10 @@ SimTK::Rotation rotation_of(const Mat3& R) {
 
 bool moves(const Scene& scene, int body) { return body != kWorld && !scene.bodies[body].fixed; }
 
-// Springs are Simbody's own; gravity too.
+// Linear springs are Simbody's own; gravity too.
+bool is_simbodys(const Spring& spring) { return spring.quadratic_stiffness == 0; }
 Scene without_springs(Scene scene) {
-  scene.springs.clear();
+  scene.springs.erase(std::remove_if(scene.springs.begin(), scene.springs.end(), is_simbodys), scene.springs.end());
   return scene;
 }
 
@@ -132,6 +135,7 @@ void SimbodySystem::refuse_no_length(const Spring& spring) const {
 
 void SimbodySystem::add_springs() {
   for (const Spring& spring : scene_.springs) {
+    if (!is_simbodys(spring)) continue;
     const auto station = [&](int body, const Vec3& point) {
       if (body == kWorld || moves(scene_, body)) return simbody_of(point);
       const BodyPose pose = scene_.pose(body);

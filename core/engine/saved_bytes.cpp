@@ -29,7 +29,8 @@ class SceneNumbers {
       add(body.mass, body.inertia, body.position, body.orientation, body.velocity, body.angular_velocity, body.fixed,
           body.collides, body.shape ? static_cast<int>(body.shape->index()) : -1);
     }
-    for (const Spring& s : scene.springs) add(s.a, s.b, s.point_a, s.point_b, s.stiffness, s.damping, s.rest_length);
+    for (const Spring& s : scene.springs)
+      add(s.a, s.b, s.point_a, s.point_b, s.stiffness, s.damping, s.rest_length, s.quadratic_stiffness);
     for (const Joint& joint : scene.joints) add_joint(joint);
     for (const Coupling& coupling : scene.couplings) add(coupling.joint, coupling.to, coupling.ratio, coupling.offset);
     for (const Motor& motor : scene.motors) add_motor(motor);
@@ -45,8 +46,8 @@ class SceneNumbers {
     archive_(values...);
   }
   void add_joint(const Joint& joint) {
-    add(joint.a, joint.b, joint.type.index(), joint.stiffness, joint.damping, joint.rest, joint.lower, joint.upper,
-        joint.restitution, joint.armature);
+    add(joint.a, joint.b, joint.type.index(), joint.stiffness, joint.quadratic_stiffness, joint.damping, joint.rest,
+        joint.lower, joint.upper, joint.restitution, joint.armature);
     for_each_vector(joint.type, [&](const auto&, const auto&, const Vec3& vector) { add(vector); });
     for_each_number(joint.type, [&](const auto&, double number) { add(number); });
   }

@@ -38,6 +38,12 @@ BodyPose Scene::pose(int body) const {
   return body == kWorld ? BodyPose{} : BodyPose{bodies[body].position, bodies[body].orientation};
 }
 
+double Scene::extension_at_start(const Spring& spring) const {
+  const BodyPose a = pose(spring.a), b = pose(spring.b);
+  return (b.position + b.orientation * spring.point_b - a.position - a.orientation * spring.point_a).stableNorm() -
+         spring.rest_length;
+}
+
 std::string joint_type_name(const Joint& joint) { return joint_types()[joint.type.index()].word; }
 
 bool is_axis_of_compound(const Joint& joint) { return std::holds_alternative<CompoundAxis>(joint.type); }

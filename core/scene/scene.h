@@ -33,21 +33,37 @@ struct Body {
   bool fixed = false;                    // static; a plane always is
 };
 
-// A straight spring and damper between two points. The force on b's point is -(k (d - d0) + c d') along the line from
-// a's point to b's; a gets the opposite force.
+// A straight spring and damper between two points. The force on b's point is -((k + q |d - d0|) (d - d0) + c d') along
+// the line from a's point to b's; a gets the opposite force.
 struct Spring {
-  int a = kWorld, b = kWorld;   // body index or kWorld
-  Vec3 point_a = Vec3::Zero();  // m, in a's frame
-  Vec3 point_b = Vec3::Zero();  // m, in b's frame
-  double stiffness = 0;         // N/m
-  double damping = 0;           // N s/m
-  double rest_length = 0;       // m
+  int a = kWorld, b = kWorld;      // body index or kWorld
+  Vec3 point_a = Vec3::Zero();     // m, in a's frame
+  Vec3 point_b = Vec3::Zero();     // m, in b's frame
+  double stiffness = 0;            // N/m
+  double damping = 0;              // N s/m
+  double rest_length = 0;          // m
+  double quadratic_stiffness = 0;  // N/m²: the stiffness that an extension of a metre adds
 };
+
+// The law of springs and of joints with a stiffness, at an extension x: the effort that pulls x back [N, N m], its
+// slope, and the energy stored [J]. `Row`: a Spring or a Joint.
+template <typename Row, typename Real>
+Real elastic_effort(const Row& row, const Real& x) {
+  return (static_cast<Real>(row.stiffness) + static_cast<Real>(row.quadratic_stiffness) * (x < 0 ? Real(-x) : x)) * x;
+}
+template <typename Row>
+double stiffness_at(const Row& row, double x) {
+  return row.stiffness + 2 * row.quadratic_stiffness * (x < 0 ? -x : x);
+}
+template <typename Row>
+double elastic_energy(const Row& row, double x) {
+  return (row.stiffness / 2 + row.quadratic_stiffness / 3 * (x < 0 ? -x : x)) * x * x;
+}
 
 // A hinge's angle [rad] is that by which b has turned against a about the axis since t = 0: springs take it from -pi to
 // pi, limits count whole turns. A slider's displacement [m] is how far b's centre has come along it. Spring, damper and
 // limits act on that coordinate x alone:
-//   effort on b = -stiffness (x - rest) - damping x',   the opposite on a.
+//   effort on b = -(stiffness + quadratic_stiffness |x - rest|) (x - rest) - damping x',   the opposite on a.
 struct Joint {
   int a = kWorld, b = kWorld;
   JointType type;
@@ -58,7 +74,8 @@ struct Joint {
   double lower = -std::numeric_limits<double>::infinity();  // rad, m; at most 0
   double upper = std::numeric_limits<double>::infinity();   // rad, m; at least 0
   double restitution = 0;                                   // of its limits, 0..1
-  double armature = 0;  // kg m², kg: of its rotor; adds armature x'^2 / 2 of energy
+  double armature = 0;             // kg m², kg: of its rotor; adds armature x'^2 / 2 of energy
+  double quadratic_stiffness = 0;  // N m/rad², N/m²: the stiffness that a unit of extension adds
 
   bool has_limits() const { return std::isfinite(lower) || std::isfinite(upper); }
 };
@@ -121,9 +138,10 @@ struct Scene {
 
   ContactLaw contact_law(int a, int b) const;  // the order of a and b does not matter
   std::string body_name(int index) const { return index == kWorld ? "world" : bodies[index].name; }
-  std::string joint_name(std::size_t index) const;     // its own, or "the hinge of 'world' and 'rod'"
-  std::string coupling_name(std::size_t index) const;  // "the coupling of joint 'a' to joint 'b'"
-  BodyPose pose(int body) const;                       // at t = 0; of the world, W itself
+  std::string joint_name(std::size_t index) const;        // its own, or "the hinge of 'world' and 'rod'"
+  std::string coupling_name(std::size_t index) const;     // "the coupling of joint 'a' to joint 'b'"
+  BodyPose pose(int body) const;                          // at t = 0; of the world, W itself
+  double extension_at_start(const Spring& spring) const;  // m: of its length beyond the rest length
 };
 
 // Whether the law of some pair of bodies meets the condition, or that of all other pairs.

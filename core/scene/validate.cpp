@@ -96,6 +96,11 @@ Fault not_at_least_zero(const char* key, double value) {
   return SceneFault{key, fmt::format("found {}; allowed: a number of at least 0", value)};
 }
 
+Fault fault_of_quadratic(double stiffness, double quadratic_stiffness) {
+  if (stiffness > 0 || quadratic_stiffness == 0) return {};
+  return SceneFault{"quadratic_stiffness", "it adds to stiffness; allowed: a stiffness above 0, too"};
+}
+
 Fault fault_of_times(double from, double until) {
   if (const Fault early = not_at_least_zero("from", from)) return early;
   if (until > from) return {};
@@ -156,10 +161,13 @@ Fault fault_of_ends(int a, int b, const char* what, const Scene& scene) {
 
 Fault fault_of(const Spring& spring, const Scene& scene) {
   if (Fault ends = fault_of_ends(spring.a, spring.b, "spring", scene)) return ends;
-  for (const auto& [key, value] :
-       {std::pair{"stiffness", spring.stiffness}, {"damping", spring.damping}, {"rest_length", spring.rest_length}}) {
+  for (const auto& [key, value] : {std::pair{"stiffness", spring.stiffness},
+                                   {"damping", spring.damping},
+                                   {"rest_length", spring.rest_length},
+                                   {"quadratic_stiffness", spring.quadratic_stiffness}}) {
     if (Fault negative = not_at_least_zero(key, value)) return negative;
   }
+  if (Fault alone = fault_of_quadratic(spring.stiffness, spring.quadratic_stiffness)) return alone;
   if (spring.point_a.allFinite() && spring.point_b.allFinite()) return {};
   return SceneFault{"", "its points are not finite"};
 }

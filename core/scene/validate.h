@@ -29,6 +29,8 @@ std::optional<SceneFault> fault_of(const Motor& motor, const Scene& scene);
 std::optional<SceneFault> fault_of(const ContactLaw& law);
 std::optional<SceneFault> fault_of_times(double from, double until);
 std::optional<SceneFault> not_at_least_zero(const char* key, double value);
+// A stiffness that grows with the extension adds to one that does not.
+std::optional<SceneFault> fault_of_quadratic(double stiffness, double quadratic_stiffness);
 std::optional<SceneFault> fault_of(const ContactPair& pair, const Scene& scene);
 std::optional<SceneFault> fault_of_default(const Scene& scene);  // of contact_default
 std::optional<SceneFault> fault_of(const TimedForce& force, const Scene& scene);

@@ -109,10 +109,13 @@ Fault fault_of(const Joint& joint, const Scene& scene) {
   if (Fault ends = fault_of_ends(joint.a, joint.b, "joint", scene)) return ends;
   if (Fault vector = fault_of_vectors(joint)) return vector;
   if (Fault type = std::visit(JointFault{joint, scene}, joint.type)) return type;
-  for (const auto& [key, value] :
-       {std::pair{"stiffness", joint.stiffness}, {"damping", joint.damping}, {"armature", joint.armature}}) {
+  for (const auto& [key, value] : {std::pair{"stiffness", joint.stiffness},
+                                   {"damping", joint.damping},
+                                   {"armature", joint.armature},
+                                   {"quadratic_stiffness", joint.quadratic_stiffness}}) {
     if (Fault negative = not_at_least_zero(key, value)) return negative;
   }
+  if (Fault alone = fault_of_quadratic(joint.stiffness, joint.quadratic_stiffness)) return alone;
   if (joint.armature > 0 && !free_axis(joint))
     return SceneFault{"armature",
                       fmt::format("is on a {} joint; allowed: on a hinge, a slider or an axis of a compound "

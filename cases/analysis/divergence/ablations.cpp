@@ -154,7 +154,7 @@ class Ablater {
     }
     if (joint.stiffness > 0 || joint.damping > 0) {
       add("the spring and damper of " + name, "", kSpring, joint.a, joint.b,
-          [k](Scene& s) { s.joints[k].stiffness = s.joints[k].damping = 0; });
+          [k](Scene& s) { s.joints[k].stiffness = s.joints[k].quadratic_stiffness = s.joints[k].damping = 0; });
     }
     // An axis of a compound joint locks nothing by itself.
     if (is_axis_of_compound(joint)) return;

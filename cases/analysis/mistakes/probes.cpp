@@ -61,7 +61,8 @@ double fastest_rate(const Scene& scene) {
       const Body& moving = scene.bodies[static_cast<std::size_t>(body)];
       mobility += 1 / moving.mass + point.squaredNorm() * moving.inertia.inverse().norm();
     }
-    fastest = std::max({fastest, spring.damping * mobility, std::sqrt(spring.stiffness * mobility)});
+    const double stiffness = stiffness_at(spring, scene.extension_at_start(spring));
+    fastest = std::max({fastest, spring.damping * mobility, std::sqrt(stiffness * mobility)});
   }
   return fastest;
 }

@@ -109,7 +109,7 @@ ElementRows elements_of(const Scene& scene, const VelocityRows& rows) {
     found.elements.push_back(
         {ForceElement::Kind::spring,
          fmt::format("the spring of '{}' and '{}'", scene.body_name(spring.a), scene.body_name(spring.b)),
-         spring.stiffness, spring.damping});
+         stiffness_at(spring, scene.extension_at_start(spring)), spring.damping});
     found.rows.push_back(rows.spring_row(spring, arm_a, arm_b, line.normalized()));
   }
   const auto add_on_joint = [&](std::size_t i, const std::string& name, double stiffness, double damping, bool servo) {
@@ -120,7 +120,8 @@ ElementRows elements_of(const Scene& scene, const VelocityRows& rows) {
     found.rows.push_back(rows.coordinate_row(joint));
   };
   for (std::size_t i = 0; i < scene.joints.size(); ++i)
-    add_on_joint(i, scene.joint_name(i), scene.joints[i].stiffness, scene.joints[i].damping, false);
+    add_on_joint(i, scene.joint_name(i), stiffness_at(scene.joints[i], scene.joints[i].rest), scene.joints[i].damping,
+                 false);
   for (const Motor& motor : scene.motors) {
     const auto i = static_cast<std::size_t>(motor.joint);
     // A sampled servo holds its effort for its period, at any dt.

@@ -20,7 +20,7 @@ std::vector<std::vector<Pull>> pulls_of(const Scene& scene) {
   std::vector<std::vector<Pull>> pulls;
   for (const Spring& spring : scene.springs) {
     const Vec3 a = point_in_world(spring.a, spring.point_a), b = point_in_world(spring.b, spring.point_b);
-    const Vec3 line = (b - a).normalized() * std::sqrt(spring.stiffness);
+    const Vec3 line = (b - a).normalized() * std::sqrt(stiffness_at(spring, scene.extension_at_start(spring)));
     auto& row = pulls.emplace_back();
     for (const auto& [body, point, force] : {std::tuple(spring.a, a, Vec3(-line)), std::tuple(spring.b, b, line)}) {
       if (body == kWorld || scene.bodies[body].fixed) continue;

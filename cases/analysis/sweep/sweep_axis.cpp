@@ -139,7 +139,8 @@ std::string unit_of_axis(const SweepAxis& axis) {
   std::string name = axis.key.substr(axis.key.rfind('.') + 1);
   name.resize(std::min(name.find('['), name.size()));
   const bool of_joint = axis.key.starts_with("scene.joint");
-  if (of_joint && (name == "stiffness" || name == "damping" || name == "rest" || name == "lower" || name == "upper"))
+  if (of_joint && (name == "stiffness" || name == "quadratic_stiffness" || name == "damping" || name == "rest" ||
+                   name == "lower" || name == "upper"))
     return "";  // about an axis or along it
   static const std::vector<std::pair<std::string, std::string>> units = {{"angular_velocity", "rad/s"},
                                                                          {"damping", "N s/m"},
@@ -156,6 +157,7 @@ std::string unit_of_axis(const SweepAxis& axis) {
                                                                          {"point_a", "m"},
                                                                          {"point_b", "m"},
                                                                          {"position", "m"},
+                                                                         {"quadratic_stiffness", "N/m²"},
                                                                          {"radius", "m"},
                                                                          {"rest_length", "m"},
                                                                          {"restitution", "1"},

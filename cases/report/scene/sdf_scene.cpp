@@ -191,6 +191,9 @@ class SdfWriter {
     for (const Spring& spring : scene_.springs)
       leave_out(fmt::format("a spring between '{}' and '{}'", scene_.body_name(spring.a), scene_.body_name(spring.b)),
                 "it", "SDF has no springs between points");
+    for (std::size_t k = 0; k < scene_.joints.size(); ++k)
+      if (scene_.joints[k].quadratic_stiffness > 0)
+        leave_out(scene_.joint_name(k), "its quadratic_stiffness", "SDF's springs are linear");
     for (std::size_t k = 0; k < scene_.couplings.size(); ++k)
       leave_out(scene_.coupling_name(k), "it", "is not written: the joints move by themselves");
     for (const Motor& motor : scene_.motors)

@@ -150,7 +150,7 @@ class EquationsOfMotion {
     const Real length = line.norm();
     if (length == 0) return;
     const Vector closing = b.velocity + b.w.cross(arm_b) - a.velocity - a.w.cross(arm_a);
-    const Real tension = static_cast<Real>(spring.stiffness) * (length - static_cast<Real>(spring.rest_length)) +
+    const Real tension = elastic_effort(spring, Real(length - static_cast<Real>(spring.rest_length))) +
                          static_cast<Real>(spring.damping) * line.dot(closing) / length;
     const Vector force = line * (tension / length);  // on a; its opposite on b
     a.force += force, a.torque += arm_a.cross(force);
@@ -172,7 +172,7 @@ class EquationsOfMotion {
     const Real x = axis.coordinate(a.position, a.R, b.position, b.R, turned(state, k));
     const Real effort = drive.effort(x, rate, state.data() + clock_place(), k) -
                         static_cast<Real>(joint.damping) * rate -
-                        static_cast<Real>(joint.stiffness) * (x - static_cast<Real>(joint.rest));
+                        elastic_effort(joint, Real(x - static_cast<Real>(joint.rest)));
     if (axis.is_hinge) {
       b.torque += effort * n, a.torque -= effort * n;
     } else {

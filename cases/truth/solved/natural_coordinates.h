@@ -221,7 +221,7 @@ class NaturalCoordinates {
       const Vector n = line / length;
       const Real stretch = length - static_cast<Real>(spring.rest_length),
                  rate = n.dot(b.rate_of(point_b) - a.rate_of(point_a)),
-                 tension = static_cast<Real>(spring.stiffness) * stretch + static_cast<Real>(spring.damping) * rate;
+                 tension = elastic_effort(spring, stretch) + static_cast<Real>(spring.damping) * rate;
       a.push(tension * n, point_a), b.push(-tension * n, point_b);
     }
     for (const TimedForce* timed : acting.forces) {
@@ -245,7 +245,7 @@ class NaturalCoordinates {
     const Real rate = axis.is_hinge ? n.dot(b.w() - a.w()) : n.dot(b.dx - a.rate_of(there)),
                x = axis.coordinate(a.x, a.R, b.x, b.R, turned(state, k)),
                effort = drive.effort(x, rate, state.data() + clock_place(), k) -
-                        static_cast<Real>(joint.stiffness) * (x - static_cast<Real>(joint.rest)) -
+                        elastic_effort(joint, Real(x - static_cast<Real>(joint.rest))) -
                         static_cast<Real>(joint.damping) * rate;
     if (axis.is_hinge) {
       b.turn(effort * n), a.turn(-effort * n);

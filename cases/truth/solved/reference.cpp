@@ -41,11 +41,22 @@ class Reference final : public Truth {
 };
 
 std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
-  static const Features solved = {
-      Feature::fixed_body,   Feature::spring,       Feature::timed_force,    Feature::joints_with_dampers,
-      Feature::joint_spring, Feature::joint_damper, Feature::joint_limit,    Feature::joint_limit_beyond_half_turn,
-      Feature::motor_effort, Feature::motor_speed,  Feature::joint_friction, Feature::motor_servo,
-      Feature::motor_table,  Feature::armature,     Feature::coupling};
+  static const Features solved = {Feature::fixed_body,
+                                  Feature::spring,
+                                  Feature::timed_force,
+                                  Feature::joints_with_dampers,
+                                  Feature::joint_spring,
+                                  Feature::quadratic_spring,
+                                  Feature::joint_damper,
+                                  Feature::joint_limit,
+                                  Feature::joint_limit_beyond_half_turn,
+                                  Feature::motor_effort,
+                                  Feature::motor_speed,
+                                  Feature::joint_friction,
+                                  Feature::motor_servo,
+                                  Feature::motor_table,
+                                  Feature::armature,
+                                  Feature::coupling};
   for (const Need& need : needs_of(scene)) {
     if (need.feature == joint_feature<CompoundJoint>())
       throw InputError(

@@ -86,7 +86,7 @@ struct Springs {
   std::size_t begin = 0, end = 0, stride = 0;
   const double* constants = nullptr;              // columns of SpringColumn
   const std::int32_t *a = nullptr, *b = nullptr;  // rows of the bodies; 0 for the world
-  bool damped = false;
+  bool damped = false, quadratic = false;
 };
 enum SpringColumn {
   kPointA = 0,  // m, in a's frame
@@ -96,7 +96,8 @@ enum SpringColumn {
   kStiffness = 8,    // N/m
   kDamping = 9,      // N s/m
   kRestLength = 10,  // m
-  kSpringColumns = 11
+  kQuadratic = 11,   // N/m²
+  kSpringColumns = 12
 };
 enum PullColumn { kPull = 0, kTorqueA = 3, kTorqueB = 6, kPullColumns = 9 };
 

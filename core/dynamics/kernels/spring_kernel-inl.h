@@ -49,7 +49,11 @@ void springs(const Springs& s, const double* state, std::size_t stride, double* 
         const T length = square_root(dot(line, line));
         // If the points coincide, the line has no direction, and the spring no force.
         const V3<T> n = if_at_most(length, T{}, T{}, broadcast(T(), 1) / length) * line;
-        T tension = constant(kStiffness) * (length - constant(kRestLength));
+        const T extension = length - constant(kRestLength);
+        T stiffness = constant(kStiffness);
+        if (s.quadratic)
+          stiffness = stiffness + constant(kQuadratic) * if_at_most(extension, T{}, T{} - extension, extension);
+        T tension = stiffness * extension;
         if (s.damped) tension = tension + constant(kDamping) * dot(n, b.velocity - a.velocity);
         const V3<T> force = (T{} - tension) * n;
         const auto put = [&](int c, V3<T> x) RIGOR_LAMBDA {

@@ -37,7 +37,8 @@ class FastestRate {
       take(body.velocity.norm() / L_), take(body.angular_velocity.norm());
     }
     for (const Spring& spring : scene_.springs) {
-      for (const int body : {spring.a, spring.b}) take(std::sqrt(spring.stiffness * per_mass(body)));
+      const double stiffness = stiffness_at(spring, scene_.extension_at_start(spring));
+      for (const int body : {spring.a, spring.b}) take(std::sqrt(stiffness * per_mass(body)));
     }
     for (const TimedForce& force : scene_.forces) {
       const double moment = force.torque.norm() + force.point.norm() * force.force.norm();
@@ -45,7 +46,8 @@ class FastestRate {
       take(std::sqrt(moment * per_mass(force.body)) / L_);
     }
     for (const Joint& joint : scene_.joints) {
-      for (const int body : {joint.a, joint.b}) take(std::sqrt(joint.stiffness * per_mass(body)) / arm_of(joint));
+      const double stiffness = stiffness_at(joint, joint.rest);
+      for (const int body : {joint.a, joint.b}) take(std::sqrt(stiffness * per_mass(body)) / arm_of(joint));
     }
     for (const Motor& motor : scene_.motors) take_motor(motor);
     return fastest_;

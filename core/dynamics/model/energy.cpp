@@ -43,12 +43,12 @@ double potential_energy(const Scene& scene, BodyColumns bodies) {
     const Vec3 line =
         point_in_world(bodies, spring.b, spring.point_b) - point_in_world(bodies, spring.a, spring.point_a);
     const double stretch = line.norm() - spring.rest_length;
-    sum += 0.5 * spring.stiffness * stretch * stretch;
+    sum += elastic_energy(spring, stretch);
   }
   for (const Joint& joint : scene.joints) {
     if (joint.stiffness == 0) continue;
     const double stretch = JointCoordinate(scene, joint).at(bodies).x - joint.rest;
-    sum += 0.5 * joint.stiffness * stretch * stretch;
+    sum += elastic_energy(joint, stretch);
   }
   return sum;
 }

@@ -28,6 +28,7 @@ void WrenchColumns::set_spring(std::size_t k, const Spring& spring) {
   constants_.column(kStiffness)[k] = spring.stiffness;
   constants_.column(kDamping)[k] = spring.damping;
   constants_.column(kRestLength)[k] = spring.rest_length;
+  constants_.column(kQuadratic)[k] = spring.quadratic_stiffness;
 }
 
 void WrenchColumns::list_pulls_on_bodies() {
@@ -58,7 +59,8 @@ const double* WrenchColumns::over_step(BodyColumns state, double t, double dt, s
                                .constants = constants_.data(),
                                .a = a_.data(),
                                .b = b_.data(),
-                               .damped = loads_.damped()};
+                               .damped = loads_.damped(),
+                               .quadratic = loads_.quadratic()};
       kernels().springs(springs, state.column(0), state.stride(), pulls_.data());
     });
     bodies_.for_each_share(bodies_.size(), [&](std::size_t first, std::size_t last) { sum_pulls(first, last); });

@@ -31,6 +31,7 @@ const FeatureWord kPlainWords[] = {
     {Feature::motor_speed, "motor:speed"},
     {Feature::motor_table, "motor:table"},
     {Feature::placed_shapes, "placed-shapes"},
+    {Feature::quadratic_spring, "quadratic-spring"},
     {Feature::restitution, "restitution"},
     {Feature::rolling_friction, "rolling-friction"},
     {Feature::soft_contact, "soft-contact"},

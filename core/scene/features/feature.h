@@ -40,6 +40,7 @@ enum class Feature : int {
   motor_speed,
   motor_table,    // an effort that changes in time
   placed_shapes,  // shapes with poses, several of them for one body
+  quadratic_spring,  // a spring, also of a joint, whose stiffness grows with its extension
   restitution,
   rolling_friction,
   soft_contact,             // a contact with a stiffness

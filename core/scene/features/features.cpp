@@ -126,6 +126,7 @@ void add_joint(const Scene& scene, std::size_t k, NeedList& needs) {
   if (!is_axis_of_compound(joint)) needs.add(joint_feature(joint.type), because);
   if (joint.armature > 0) needs.add(Feature::armature, because);
   if (joint.stiffness > 0) needs.add(Feature::joint_spring, because);
+  if (joint.quadratic_stiffness > 0) needs.add(Feature::quadratic_spring, because);
   if (joint.damping > 0) needs.add(Feature::joint_damper, because);
   if (joint.has_limits()) needs.add(Feature::joint_limit, because);
   // A joint whose angle counts from -pi to pi never reaches such a limit.
@@ -162,6 +163,11 @@ std::vector<Need> needs_of(const Scene& scene) {
     const Spring& spring = scene.springs.front();
     needs.add(Feature::spring,
               fmt::format("a spring between '{}' and '{}'", scene.body_name(spring.a), scene.body_name(spring.b)));
+  }
+  for (const Spring& spring : scene.springs) {
+    if (spring.quadratic_stiffness > 0)
+      needs.add(Feature::quadratic_spring,
+                fmt::format("the spring between '{}' and '{}'", scene.body_name(spring.a), scene.body_name(spring.b)));
   }
   if (!scene.forces.empty()) {
     needs.add(Feature::timed_force, fmt::format("a force on '{}'", scene.body_name(scene.forces.front().body)));

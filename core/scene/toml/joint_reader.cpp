@@ -15,7 +15,8 @@ namespace rigor {
 namespace {
 
 const Keys kOfEvery = {"type", "name", "a", "b"};
-const Keys kOfCoordinate = {"stiffness", "damping", "rest", "friction", "armature", "lower", "upper", "restitution"};
+const Keys kOfCoordinate = {"stiffness", "quadratic_stiffness", "damping", "rest", "friction", "armature", "lower",
+                            "upper",     "restitution"};
 const Keys kOfSeriesAxis = {"type", "name", "anchor", "axis"};
 
 JointType read_type(const TableReader& row, const Ends& ends, JointType type) {
@@ -39,8 +40,20 @@ void read_limits(const TableReader& row, Joint& joint) {
   }
 }
 
+}  // namespace
+
+double read_quadratic_stiffness(const TableReader& row, double stiffness) {
+  const auto quadratic = row.find("quadratic_stiffness");
+  const double value = quadratic ? quadratic->non_negative() : 0;
+  refuse_if(fault_of_quadratic(stiffness, value), row);
+  return value;
+}
+
+namespace {
+
 void read_coordinate(const TableReader& row, Joint& joint) {
   if (const auto stiffness = row.find("stiffness")) joint.stiffness = stiffness->non_negative();
+  joint.quadratic_stiffness = read_quadratic_stiffness(row, joint.stiffness);
   if (const auto damping = row.find("damping")) joint.damping = damping->non_negative();
   if (const auto armature = row.find("armature")) joint.armature = armature->non_negative();
   if (const auto rest = row.find("rest")) {

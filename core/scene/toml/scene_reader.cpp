@@ -42,7 +42,8 @@ class SceneReader {
   }
 
  private:
-  inline static const Keys kSpringKeys = {"a", "point_a", "b", "point_b", "stiffness", "damping", "rest_length"};
+  inline static const Keys kSpringKeys = {"a",         "point_a", "b",           "point_b",
+                                          "stiffness", "damping", "rest_length", "quadratic_stiffness"};
   inline static const Keys kLawKeys = {"restitution", "friction", "rolling_friction", "torsional_friction",
                                        "stiffness",   "damping",  "dissipation"};
   inline static const Keys kPairKeys = {
@@ -99,6 +100,7 @@ class SceneReader {
     spring.point_a = vector_or_zero(row, "point_a") + (ends.a == kWorld ? ends.offset : Vec3::Zero());
     spring.point_b = vector_or_zero(row, "point_b") + (ends.b == kWorld ? ends.offset : Vec3::Zero());
     spring.stiffness = row.at("stiffness").non_negative();
+    spring.quadratic_stiffness = read_quadratic_stiffness(row, spring.stiffness);
     if (const auto damping = row.find("damping")) spring.damping = damping->non_negative();
     const auto rest_length = row.find("rest_length");
     spring.rest_length = rest_length ? rest_length->non_negative()

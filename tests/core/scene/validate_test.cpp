@@ -85,6 +85,9 @@ const std::vector<Row> kSpoilt = {
     {[](Scene& s) { s.springs[0].b = 9; }, "spring 1: b"},
     {[](Scene& s) { s.springs[0].a = 0, s.springs[0].b = kWorld; }, "spring 1: b"},
     {[](Scene& s) { s.springs[0].stiffness = -1; }, "spring 1: stiffness"},
+    {[](Scene& s) { s.springs[0].quadratic_stiffness = -1; }, "spring 1: quadratic_stiffness"},
+    {[](Scene& s) { s.springs[0].stiffness = 0, s.springs[0].quadratic_stiffness = 1; },
+     "spring 1: quadratic_stiffness"},
     {[](Scene& s) { s.springs[0].point_a.x() = kNan; }, "spring 1: "},
     {[](Scene& s) { s.joints[0].b = kWorld; }, "joint 1: b"},
     {[](Scene& s) {

@@ -120,6 +120,7 @@ void scale_joints(Scene& scene, double L, double T) {
     const double x = unit_of(joint, L), moment = slides(joint) ? 1 : L * L;
     joint.armature *= moment;
     joint.stiffness *= moment / (T * T), joint.damping *= moment / T;
+    joint.quadratic_stiffness *= moment / (T * T * x);
     joint.rest *= x, joint.lower *= x, joint.upper *= x;
   }
   for (Coupling& coupling : scene.couplings)
@@ -143,7 +144,7 @@ void scale(Scene& scene, double L, double T) {
   }
   for (Spring& spring : scene.springs) {
     spring.point_a *= L, spring.point_b *= L, spring.rest_length *= L;
-    spring.stiffness /= T * T, spring.damping /= T;
+    spring.stiffness /= T * T, spring.damping /= T, spring.quadratic_stiffness /= T * T * L;
   }
   scale_joints(scene, L, T);
   for (TimedForce& force : scene.forces) {

@@ -76,12 +76,14 @@ bool is_by_events(const RunName& run, const Scene& scene) {
 }
 
 // The supported features beside contacts, limits and motors of given speed.
-const Features kWhatAnyMethodTakes = {
-    Feature::fixed_body,          Feature::joint_damper,          Feature::joint_spring,
-    joint_feature<BallJoint>(),   joint_feature<DistanceJoint>(), joint_feature<FixedJoint>(),
-    joint_feature<HingeJoint>(),  joint_feature<SliderJoint>(),   joint_feature<UniversalJoint>(),
-    Feature::joints_with_dampers, Feature::motor_effort, Feature::joint_friction,          Feature::spring,
-    Feature::timed_force};
+const Features kWhatAnyMethodTakes = {Feature::fixed_body,          Feature::quadratic_spring,
+                                      Feature::joint_damper,        Feature::joint_spring,
+                                      joint_feature<BallJoint>(),   joint_feature<DistanceJoint>(),
+                                      joint_feature<FixedJoint>(),  joint_feature<HingeJoint>(),
+                                      joint_feature<SliderJoint>(), joint_feature<UniversalJoint>(),
+                                      Feature::joints_with_dampers, Feature::motor_effort,
+                                      Feature::joint_friction,      Feature::spring,
+                                      Feature::timed_force};
 
 // A solution that is taken up between two of its nodes knows a hinge's angle, but not how often it has turned round.
 bool may_pass_half_a_turn_from_a_limit(const Joint& joint) {

@@ -67,7 +67,7 @@ void AccelerationBounds::load_by_springs(const Ends& ends, const Bounds& guess) 
     }
     if (spring.a != kWorld) speed += 0.5 * ends.h * guess[spring.a].of_point(spring.point_a.norm());
     if (spring.b != kWorld) speed += 0.5 * ends.h * guess[spring.b].of_point(spring.point_b.norm());
-    const double tension = spring.stiffness * (extension + 0.5 * ends.h * speed) + spring.damping * speed;
+    const double tension = elastic_effort(spring, extension + 0.5 * ends.h * speed) + spring.damping * speed;
     for (const auto& [body, arm] :
          {std::pair(spring.a, spring.point_a.norm()), std::pair(spring.b, spring.point_b.norm())}) {
       if (body != kWorld) loading_[body].force += tension, loading_[body].torque += tension * arm;

@@ -57,7 +57,7 @@ double largest_load(const Scene& scene, double length) {
   };
   for (const TimedForce& force : scene.forces) add(force.body, force.force.norm() + force.torque.norm() / length);
   for (const Spring& spring : scene.springs) {
-    for (const int body : {spring.a, spring.b}) add(body, spring.stiffness * length);
+    for (const int body : {spring.a, spring.b}) add(body, elastic_effort(spring, length));
   }
   return most;
 }

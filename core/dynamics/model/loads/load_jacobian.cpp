@@ -4,6 +4,7 @@ namespace rigor {
 namespace {
 
 // d (force on b's point) = -by_distance d(d) - by_speed d(d'), with d the vector from a's point to b's:
+// With k the slope of the spring's law:
 //   by_distance = k n nᵀ + (T/l) P + c n (d'ᵀ P)/l,   by_speed = c n nᵀ,   P = I - n nᵀ,   T the tension.
 struct SpringStiffness {
   Vec3 force = Vec3::Zero();  // N, on b's point
@@ -16,11 +17,12 @@ SpringStiffness stiffness_of(const Spring& spring, const PointMotion& a, const P
   if (length == 0) return {};
   const Vec3 n = line / length;
   const Mat3 along = n * n.transpose(), across = Mat3::Identity() - along;
-  const double tension = spring.stiffness * (length - spring.rest_length) + spring.damping * n.dot(speed);
-  return {
-      -tension * n,
-      spring.stiffness * along + tension / length * across + spring.damping / length * n * (speed.transpose() * across),
-      spring.damping * along};
+  const double extension = length - spring.rest_length;
+  const double tension = elastic_effort(spring, extension) + spring.damping * n.dot(speed);
+  return {-tension * n,
+          stiffness_at(spring, extension) * along + tension / length * across +
+              spring.damping / length * n * (speed.transpose() * across),
+          spring.damping * along};
 }
 
 // How a point moves with its body: d(point) = by_pose d(pose), d(velocity) = rate_by_pose d(pose) + by_pose d(v, w).

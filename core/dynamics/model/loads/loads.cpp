@@ -30,7 +30,7 @@ Vec3 spring_force(const Spring& spring, const PointMotion& a, const PointMotion&
   if (length == 0) return Vec3::Zero();
   const Vec3 direction = line / length;
   const double stretching = direction.dot(b.velocity - a.velocity);
-  return -(spring.stiffness * (length - spring.rest_length) + spring.damping * stretching) * direction;
+  return -(elastic_effort(spring, length - spring.rest_length) + spring.damping * stretching) * direction;
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ double share_of_step(double from, double until, double t, double dt) {
 }
 
 double JointDrive::effort(const JointCoordinate::Value& at, double t, double dt, std::optional<double> instant) const {
-  double sum = push - stiffness * (at.x - rest) - damping * at.rate;
+  double sum = push - elastic_effort(*this, at.x - rest) - damping * at.rate;
   for (const Motor& motor : motors) sum += motor.mean_effort(t, dt, instant);
   for (const ServoDrive& servo : servos) sum += servo.effort(at.x, at.rate, t, dt, instant);
   return sum;
@@ -59,6 +59,8 @@ Loads::Loads(const Scene& scene)
   for (const Body& body : scene.bodies) masses_.push_back(body.fixed ? 0 : body.mass);
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_drive(scene, k);
   const auto damps = [](const auto& row) { return row.damping != 0; };
+  quadratic_ = std::any_of(springs_.begin(), springs_.end(),
+                           [](const Spring& spring) { return spring.quadratic_stiffness != 0; });
   damped_ = std::any_of(springs_.begin(), springs_.end(), damps) ||
             std::any_of(drives_.begin(), drives_.end(), [&](const JointDrive& drive) {
               return damps(drive) || std::any_of(drive.servos.begin(), drive.servos.end(),
@@ -78,8 +80,8 @@ void Loads::add_drive(const Scene& scene, std::size_t k) {
     if (motor.gives_effort()) motors.push_back(motor);
   }
   if (joint.stiffness == 0 && joint.damping == 0 && motors.empty() && servos.empty() && !has_speed) return;
-  drives_.push_back({JointCoordinate(scene, joint), k, joint.stiffness, joint.damping, joint.rest, std::move(motors),
-                     std::move(servos)});
+  drives_.push_back({JointCoordinate(scene, joint), k, joint.stiffness, joint.quadratic_stiffness, joint.damping,
+                     joint.rest, std::move(motors), std::move(servos)});
 }
 
 void Loads::set_push(std::size_t joint, double effort) {

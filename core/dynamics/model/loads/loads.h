@@ -35,11 +35,11 @@ inline double share_of_step(const TimedForce& force, double t, double dt) {
   return share_of_step(force.from, force.until, t, dt);
 }
 
-// Acts on a joint's coordinate x: -stiffness (x - rest) - damping x', and the efforts of its motors.
+// Acts on a joint's coordinate x: -elastic_effort(x - rest) - damping x', and the efforts of its motors.
 struct JointDrive {
   JointCoordinate coordinate;
   std::size_t joint;  // index
-  double stiffness, damping, rest;
+  double stiffness, quadratic_stiffness, damping, rest;
   std::vector<Motor> motors = {};  // that give an effort
   std::vector<ServoDrive> servos = {};
   double push = 0;  // N m, N: of motors that are on the way to their speed; see Loads::set_push()
@@ -101,6 +101,7 @@ class Loads {
   const std::vector<JointDrive>& drives() const { return drives_; }
   bool empty() const { return springs_.empty() && forces_.empty() && drives_.empty(); }
   bool damped() const { return damped_; }
+  bool quadratic() const { return quadratic_; }  // whether any spring between points is
   // Of motors that push, and of servos.
   template <typename Archive>
   void archive_state(Archive& archive) {
@@ -119,7 +120,7 @@ class Loads {
   std::vector<TimedForce> forces_;
   ForceSchedule schedule_;
   std::vector<JointDrive> drives_;
-  bool damped_ = false;
+  bool damped_ = false, quadratic_ = false;
 };
 
 }  // namespace rigor

@@ -59,9 +59,11 @@ Json row_of(const Body& body) {
 }
 
 Json row_of(const Spring& spring, const Scene& scene) {
-  return {{"a", scene.body_name(spring.a)},   {"point_a", list(spring.point_a)}, {"b", scene.body_name(spring.b)},
-          {"point_b", list(spring.point_b)},  {"stiffness", spring.stiffness},   {"damping", spring.damping},
-          {"rest_length", spring.rest_length}};
+  Json row = {{"a", scene.body_name(spring.a)},   {"point_a", list(spring.point_a)}, {"b", scene.body_name(spring.b)},
+              {"point_b", list(spring.point_b)},  {"stiffness", spring.stiffness},   {"damping", spring.damping},
+              {"rest_length", spring.rest_length}};
+  if (spring.quadratic_stiffness > 0) row["quadratic_stiffness"] = spring.quadratic_stiffness;
+  return row;
 }
 
 // What acts on the free coordinate of a joint.
@@ -73,6 +75,7 @@ void add_coordinate(const Joint& joint, const Scene& scene, Json& row) {
   }
   if (joint.armature > 0) row["armature"] = joint.armature;
   if (joint.stiffness > 0) row["rest"] = joint.rest;
+  if (joint.quadratic_stiffness > 0) row["quadratic_stiffness"] = joint.quadratic_stiffness;
   add_unless_infinite(row, "lower", joint.lower);
   add_unless_infinite(row, "upper", joint.upper);
   if (joint.has_limits()) row["restitution"] = joint.restitution;

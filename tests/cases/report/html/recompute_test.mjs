@@ -52,7 +52,7 @@ function energy(scene, bodies) {
   });
   for (const s of scene.springs) {
     const stretch = size(minus(at(s.b, s.point_b), at(s.a, s.point_a))) - s.rest_length;
-    sum += 0.5 * s.stiffness * stretch * stretch;
+    sum += (0.5 * s.stiffness + ((s.quadratic_stiffness ?? 0) / 3) * Math.abs(stretch)) * stretch * stretch;
   }
   return sum;
 }

@@ -71,6 +71,7 @@ inline void change_springs_and_forces(std::vector<Change>& changes, const Scene&
   };
   spring("stiffness", [](Spring& s) { s.stiffness *= 1.5; });
   spring("stiffness, at all", [](Spring& s) { s.stiffness = 0; });
+  spring("stiffness that grows", [](Spring& s) { s.quadratic_stiffness = s.stiffness; });
   spring("damping", [](Spring& s) { s.damping += 0.5; });
   spring("damping, at all", [](Spring& s) { s.damping = 0; });
   spring("rest length", [](Spring& s) { s.rest_length += 0.1; });
@@ -113,6 +114,7 @@ inline void change_joints(std::vector<Change>& changes, const Scene& scene) {
   };
   joint("stiffness", [](Joint& j) { j.stiffness += 3; });
   joint("stiffness, at all", [](Joint& j) { j.stiffness = 0; });
+  joint("stiffness that grows", [](Joint& j) { j.stiffness += 3, j.quadratic_stiffness = 2; });
   joint("damping", [](Joint& j) { j.damping += 0.3; });
   joint("damping, at all", [](Joint& j) { j.damping = 0; });
   joint("rest", [](Joint& j) { j.rest += 0.3; });

@@ -23,9 +23,12 @@ Scene bouncing_blocks() {
   Joint rail{.a = kWorld, .b = 0, .type = SliderJoint{Vec3(0.6, 0, 0.8)}};
   rail.lower = -0.2, rail.upper = 0.5, rail.restitution = 0.5;
   Joint between{.a = 0, .b = 1, .type = SliderJoint{Vec3::UnitY()}};
-  between.lower = -0.1, between.upper = 0.15, between.restitution = 0.7, between.stiffness = 40;
+  between.lower = -0.1, between.upper = 0.15, between.restitution = 0.7;
+  between.stiffness = 40, between.quadratic_stiffness = 100;
   scene.joints = {rail, between};
   scene.bodies[1].velocity = {0, 0.9, 0};
+  scene.springs = {spring(kWorld, {0.5, 0.3, 1}, 1, {0, 0.1, 0}, 5, 0.4)};
+  scene.springs[0].quadratic_stiffness = 8;
   return scene;
 }
 
@@ -36,6 +39,7 @@ Scene driven_arm() {
   scene.bodies = {body("arm", 1.5, {0.05, 0.05, 0.02}, {0.4, 0, 0})};
   Joint hinge{.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitY()}};
   hinge.lower = -1, hinge.upper = 0.6, hinge.restitution = 0.4;
+  hinge.stiffness = 0.5, hinge.quadratic_stiffness = 0.4;
   scene.joints = {hinge};
   scene.motors = {{.joint = 0, .effort = 0, .speed = -1.5, .most = 9}};
   TimedForce down;

@@ -50,6 +50,7 @@ class Maker {
   // Springs, dampers and limits of a joint with an axis, and motors on it.
   void load(Joint& joint, int index) {
     if (chance(0.4)) joint.stiffness = 20, joint.rest = between(-0.3, 0.3);
+    if (joint.stiffness > 0 && chance(0.5)) joint.quadratic_stiffness = 15;
     if (chance(0.4)) joint.damping = between(0.05, 1);
     if (chance(0.5)) joint.lower = -between(0, 0.8), joint.upper = between(0, 0.8);
     if (chance(0.5)) joint.restitution = 0.5;

@@ -57,6 +57,11 @@ Scene tied_crowd(int count, bool full_inertia, double damping) {
   return scene;
 }
 
+Scene on_quadratic_springs(Scene scene) {
+  for (Spring& spring : scene.springs) spring.quadratic_stiffness = 0.8 * spring.stiffness;
+  return scene;
+}
+
 std::vector<std::pair<std::string, Scene>> scenes(bool with_dampers) {
   std::vector<std::pair<std::string, Scene>> all = {
       {"one body", test::tumbling_body()},
@@ -66,6 +71,7 @@ std::vector<std::pair<std::string, Scene>> scenes(bool with_dampers) {
       {"21 free bodies of full inertia, some fixed", crowd(21, true, true)},
       {"21 tied bodies", tied_crowd(21, false, 0)},
       {"70 tied bodies of full inertia", tied_crowd(70, true, 0)},
+      {"21 bodies on quadratic springs", on_quadratic_springs(tied_crowd(21, true, 0))},
   };
   if (with_dampers) all.emplace_back("70 tied bodies with dampers", tied_crowd(70, true, 0.5));
   return all;

@@ -77,6 +77,30 @@ BOOST_AUTO_TEST_CASE(a_hinges_spring_and_damper_make_a_damped_oscillation) {
   BOOST_TEST(std::log2(coarse / fine) > 1.9);
 }
 
+// I x'' + (k + q |x|) x = 0 from x = A at rest: by the energy, the first quarter of the swing takes
+//   integral over x from 0 to A of dx / sqrt((k (A² - x²) + 2/3 q (A³ - x³)) / I).
+// With x = A - A u² the integrand is smooth, and Simpson's rule with 200 parts is right to 1e-9.
+BOOST_AUTO_TEST_CASE(a_quadratic_spring_swings_in_the_time_that_its_energy_tells) {
+  constexpr double kInertia = 0.5, k = 2, q = 6, A = 0.8;  // kg m², N m/rad, N m/rad², rad
+  const auto integrand = [&](double u) {
+    const double x = A - A * u * u, square = (k * (A + x) + 2.0 / 3 * q * (A * A + A * x + x * x)) / kInertia;
+    return 2 * std::sqrt(A) / std::sqrt(square);  // dx = 2 A u du, and A - x = A u²
+  };
+  constexpr int kParts = 200;
+  double quarter = 0;
+  for (int n = 0; n <= kParts; ++n)
+    quarter += (n == 0 || n == kParts ? 1 : n % 2 ? 4 : 2) * integrand(static_cast<double>(n) / kParts);
+  quarter /= 3.0 * kParts;
+  Scene scene = wheel();
+  scene.joints[0].stiffness = k, scene.joints[0].quadratic_stiffness = q, scene.joints[0].rest = -A;
+  // The coordinate counts from the start, A away from rest.
+  constexpr int kSteps = 100;
+  for (const auto& [quarters, expected] : {std::pair{1, -A}, {2, -2 * A}, {3, -A}, {4, 0.0}}) {
+    const double x = coordinate(scene, after(scene, "dormand-prince", quarters * quarter / kSteps, kSteps));
+    BOOST_TEST(std::abs(x - expected) < 1e-8, quarters << " quarters: " << x << " for " << expected);
+  }
+}
+
 // Between limits less than a turn apart the spring goes by the turns: from 0 it swings to -4 rad and back.
 BOOST_AUTO_TEST_CASE(a_spring_between_limits_counts_turns) {
   Scene scene = wheel();

@@ -35,6 +35,13 @@ void move_velocity(BodyTable& table, std::size_t i, int k, double h) {
     c.set_angular_velocity(i, c.angular_velocity(i) + h * Vec3::Unit(k - 3));
 }
 
+// The coupled bodies on springs whose stiffness grows.
+Scene on_quadratic_springs(double damping) {
+  Scene scene = test::coupled_bodies(damping);
+  for (Spring& spring : scene.springs) spring.quadratic_stiffness = 0.7 * spring.stiffness;
+  return scene;
+}
+
 Vec6 wrench_of(const Wrench& w) {
   Vec6 v;
   v << w.force, w.torque;
@@ -46,19 +53,36 @@ Vec6 wrench_of(const Wrench& w) {
 // Without damping and timed forces the wrench is the downhill slope of the energy. Central differences with h = 1e-5
 // are right to h² times the third derivative, about 1e-7 here.
 BOOST_AUTO_TEST_CASE(springs_and_gravity_are_the_slope_of_the_potential_energy) {
-  Scene scene = test::coupled_bodies(0);
-  scene.forces.clear();
-  const BodyTable start = initial(scene);
-  Wrenches wrenches;
-  Loads(scene).evaluate_with_gravity(start.columns(), 0, 0, wrenches);
-  const double h = 1e-5;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    for (int k = 0; k < 6; ++k) {
-      BodyTable up = start, down = start;
-      move_pose(up, i, k, h), move_pose(down, i, k, -h);
-      const double slope = (potential_energy(scene, up.columns()) - potential_energy(scene, down.columns())) / (2 * h);
-      BOOST_TEST(std::abs(wrench_of(wrenches[i])[k] + slope) < 1e-6, "body " << i << " coordinate " << k);
+  for (Scene scene : {test::coupled_bodies(0), on_quadratic_springs(0)}) {
+    scene.forces.clear();
+    const BodyTable start = initial(scene);
+    Wrenches wrenches;
+    Loads(scene).evaluate_with_gravity(start.columns(), 0, 0, wrenches);
+    const double h = 1e-5;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      for (int k = 0; k < 6; ++k) {
+        BodyTable up = start, down = start;
+        move_pose(up, i, k, h), move_pose(down, i, k, -h);
+        const double slope =
+            (potential_energy(scene, up.columns()) - potential_energy(scene, down.columns())) / (2 * h);
+        BOOST_TEST(std::abs(wrench_of(wrenches[i])[k] + slope) < 1e-6, "body " << i << " coordinate " << k);
+      }
     }
+  }
+}
+
+// With stiffness 10 and 4 more for each metre, an extension of 0.5 m pulls with 6 N, and -0.5 m pushes with as much.
+BOOST_AUTO_TEST_CASE(a_quadratic_stiffness_adds_to_the_force_on_either_side) {
+  for (const double x : {0.5, -0.5}) {
+    Scene scene;
+    scene.bodies = {test::body("mass", 1, {1, 1, 1}, {2 + x, 0, 0})};
+    scene.springs = {test::spring(kWorld, {0, 0, 0}, 0, {0, 0, 0}, 10, 2)};
+    scene.springs[0].quadratic_stiffness = 4;
+    Wrenches w;
+    Loads(scene).evaluate(initial(scene).columns(), 0, 0, w);
+    BOOST_TEST(std::abs(w[0].force.x() + std::copysign(6.0, x)) < 1e-14);
+    BOOST_TEST(std::abs(scene.extension_at_start(scene.springs[0]) - x) < 1e-15);
+    BOOST_TEST(std::abs(stiffness_at(scene.springs[0], x) - 14) < 1e-14);  // 10 + 2 * 4 * 0.5
   }
 }
 
@@ -114,27 +138,28 @@ BOOST_AUTO_TEST_CASE(a_spring_of_no_length_pulls_nowhere) {
 
 // Central differences with h = 1e-5: error about h² times the third derivative, below 1e-6 of entries up to 1e2.
 BOOST_AUTO_TEST_CASE(the_load_jacobian_is_the_derivative_of_the_wrenches) {
-  Scene scene = test::coupled_bodies(7);
-  scene.bodies[0].velocity = {0.3, -1, 0.2};
-  const Loads loads(scene);
-  const BodyTable start = initial(scene);
-  const std::size_t n = scene.bodies.size();
-  std::vector<Mat6> by_pose(n * n, Mat6::Zero()), by_velocity(n * n, Mat6::Zero());
-  visit_load_jacobian(loads, start.columns(), 0, 0.1, [&](const WrenchDerivative& d) {
-    by_pose[d.row * n + d.column] += d.by_pose;
-    by_velocity[d.row * n + d.column] += d.by_velocity;
-  });
-  const double h = 1e-5;
-  for (const auto& [move, blocks] : {std::pair(&move_pose, &by_pose), std::pair(&move_velocity, &by_velocity)}) {
-    for (std::size_t j = 0; j < n; ++j) {
-      for (int k = 0; k < 6; ++k) {
-        BodyTable up = start, down = start;
-        move(up, j, k, h), move(down, j, k, -h);
-        Wrenches after, before;
-        loads.evaluate(up.columns(), 0, 0.1, after), loads.evaluate(down.columns(), 0, 0.1, before);
-        for (std::size_t i = 0; i < n; ++i) {
-          const Vec6 slope = (wrench_of(after[i]) - wrench_of(before[i])) / (2 * h);
-          BOOST_TEST((slope - (*blocks)[i * n + j].col(k)).norm() < 1e-5, "wrench " << i << " by " << j << "." << k);
+  for (Scene scene : {test::coupled_bodies(7), on_quadratic_springs(7)}) {
+    scene.bodies[0].velocity = {0.3, -1, 0.2};
+    const Loads loads(scene);
+    const BodyTable start = initial(scene);
+    const std::size_t n = scene.bodies.size();
+    std::vector<Mat6> by_pose(n * n, Mat6::Zero()), by_velocity(n * n, Mat6::Zero());
+    visit_load_jacobian(loads, start.columns(), 0, 0.1, [&](const WrenchDerivative& d) {
+      by_pose[d.row * n + d.column] += d.by_pose;
+      by_velocity[d.row * n + d.column] += d.by_velocity;
+    });
+    const double h = 1e-5;
+    for (const auto& [move, blocks] : {std::pair(&move_pose, &by_pose), std::pair(&move_velocity, &by_velocity)}) {
+      for (std::size_t j = 0; j < n; ++j) {
+        for (int k = 0; k < 6; ++k) {
+          BodyTable up = start, down = start;
+          move(up, j, k, h), move(down, j, k, -h);
+          Wrenches after, before;
+          loads.evaluate(up.columns(), 0, 0.1, after), loads.evaluate(down.columns(), 0, 0.1, before);
+          for (std::size_t i = 0; i < n; ++i) {
+            const Vec6 slope = (wrench_of(after[i]) - wrench_of(before[i])) / (2 * h);
+            BOOST_TEST((slope - (*blocks)[i * n + j].col(k)).norm() < 1e-5, "wrench " << i << " by " << j << "." << k);
+          }
         }
       }
     }

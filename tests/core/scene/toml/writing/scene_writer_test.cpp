@@ -23,7 +23,7 @@ class Fields {
     for (const Body& body : scene.bodies) add(body);
     for (const Spring& s : scene.springs) {
       add("spring"), add(s.a), add(s.b), add(s.point_a), add(s.point_b);
-      add(s.stiffness), add(s.damping), add(s.rest_length);
+      add(s.stiffness), add(s.damping), add(s.rest_length), add(s.quadratic_stiffness);
     }
     for (const Joint& joint : scene.joints) add(joint);
     for (const Coupling& c : scene.couplings) add("coupling"), add(c.joint), add(c.to), add(c.ratio), add(c.offset);
@@ -78,7 +78,7 @@ class Fields {
   }
   void add(const Joint& joint) {
     add(joint_type_name(joint)), add(joint.name), add(joint.a), add(joint.b);
-    add(joint.stiffness), add(joint.damping), add(joint.rest);
+    add(joint.stiffness), add(joint.damping), add(joint.rest), add(joint.quadratic_stiffness);
     add(joint.lower), add(joint.upper), add(joint.restitution), add(joint.armature);
     if (const auto* ball = std::get_if<BallJoint>(&joint.type)) add(ball->anchor);
     if (const auto* cylinder = std::get_if<CylindricalJoint>(&joint.type)) add(cylinder->anchor), add(cylinder->axis);
@@ -153,6 +153,7 @@ b = "ball"
 point_a = [0.1, 0.2, 0.3]
 point_b = [0, 0, 0.1]
 stiffness = 1e4
+quadratic_stiffness = 3e3
 damping = 0.1
 [[scene.joint]]
 type = "hinge"
@@ -162,6 +163,7 @@ b = "rod"
 anchor = [0, 0, 0]
 axis = [1, 2, 2.5]
 stiffness = 0.2
+quadratic_stiffness = 0.4
 damping = 0.1
 rest = 0.7
 lower = -1.1
