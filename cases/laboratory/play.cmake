@@ -23,22 +23,27 @@ endforeach()
 
 # emscripten's own scripts need Debian's acorn, which a Node from elsewhere finds by NODE_PATH.
 #
-# Debian has no Qhull for WebAssembly. Without its source the laboratory leaves convex hulls out.
-set(qhull ${play_build}/qhull)
-add_custom_command(OUTPUT ${play_build}/qhull-fetched
-  COMMAND ${room}/wasm/fetch_source qhull ${qhull}
-  COMMAND ${CMAKE_COMMAND} -E touch ${play_build}/qhull-fetched
-  COMMENT "Fetching the source of Qhull" VERBATIM)
+# Debian has no libraries for WebAssembly, but their sources. Without that of Qhull the laboratory leaves convex hulls
+# out, and without those of ODE and Bullet these engines.
+set(fetched ${play_build}/fetched)
+set(sources_fetched "")
+foreach(package qhull ode bullet)
+  add_custom_command(OUTPUT ${fetched}/${package}-fetched
+    COMMAND ${room}/wasm/fetch_source ${package} ${fetched}/${package}
+    COMMAND ${CMAKE_COMMAND} -E touch ${fetched}/${package}-fetched
+    COMMENT "Fetching the source of ${package}" VERBATIM)
+  list(APPEND sources_fetched ${fetched}/${package}-fetched)
+endforeach()
 
-file(GLOB_RECURSE simulator_sources CONFIGURE_DEPENDS ../core/*.h ../core/*.cpp ../adapters/common/* ../adapters/plugin/*.h ../adapters/plugin/*.cpp ../adapters/ode/ode_twin*
-  ../adapters/bullet/bullet_twin* truth/*.h truth/*.cpp metrics/*.h metrics/*.cpp case/*.h case/*.cpp results/*.h results/*.cpp
+file(GLOB_RECURSE simulator_sources CONFIGURE_DEPENDS ../core/*.h ../core/*.cpp ../adapters/common/* ../adapters/plugin/*.h ../adapters/plugin/*.cpp ../adapters/ode/*.h ../adapters/ode/*.cpp
+  ../adapters/bullet/*.h ../adapters/bullet/*.cpp truth/*.h truth/*.cpp metrics/*.h metrics/*.cpp case/*.h case/*.cpp results/*.h results/*.cpp
   analysis/*.h analysis/*.cpp report/wording/*.h report/wording/*.cpp laboratory/*.h laboratory/*.cpp)
 add_custom_command(OUTPUT ${play_build}/wasm/rigor_play.wasm
   COMMAND ${CMAKE_COMMAND} -S ${room}/wasm -B ${play_build}/wasm -G ${CMAKE_GENERATOR} -DCMAKE_TOOLCHAIN_FILE=${emscripten}
-    -DCMAKE_BUILD_TYPE=None -DHEADERS=${play_build}/headers -DFETCHED=${qhull} -DVERSION=${PROJECT_VERSION}
+    -DCMAKE_BUILD_TYPE=None -DHEADERS=${play_build}/headers -DFETCHED=${fetched} -DVERSION=${PROJECT_VERSION}
     -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} -DCMAKE_C_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
   COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs ${CMAKE_COMMAND} --build ${play_build}/wasm
-  DEPENDS ${play_build}/qhull-fetched ${simulator_sources} ${room}/wasm/CMakeLists.txt
+  DEPENDS ${sources_fetched} ${simulator_sources} ${room}/wasm/CMakeLists.txt ${room}/wasm/engines.cmake
   COMMENT "Compiling the simulators for WebAssembly" VERBATIM)
 
 # Engines of the npm registry that need no file at run time; engines.html has them beside the core.

@@ -297,6 +297,25 @@ try {
       await quiet();
     });
   }
+  await check("ODE and Bullet run beside the core, and each is what it is", async () => {
+    await open("#/springs/fixed-spring?runs=core:rk4~ode&dt=1/60");
+    await click("#add-run"), await until("document.querySelectorAll('.run-row').length === 3", "a third run");
+    await pick(".run-row:nth-of-type(3) select", "bullet");
+    await inAddress("~ode~bullet");
+    const names = await run(
+      "return [...document.querySelectorAll('.run-row:nth-of-type(2) option')].map((one) => one.textContent)",
+    );
+    for (const name of [/^ode 0\.16/, /^bullet 3\.24/])
+      expect(names.some((one) => name.test(one)), `no ${name} among ${names.join(", ")}`);
+    await until("!document.querySelector('.now').textContent.includes('–')", "figures of all", 30);
+    await pick("#speed", "4");
+    await click("#play");
+    await atStep(300);
+    for (const name of ["ode", "bullet"])
+      matches(await text(`.now [data-run='${name}'] td:nth-of-type(2)`), /m$/, `the error of ${name}`);
+    await shoot("ode-bullet-1400");
+    await quiet();
+  });
   await check("the other page has Rapier and Jolt beside the core, with the same state", async () => {
     await open("#/contact/collision?runs=core:velocity-verlet,contact=event&dt=1/60&restitution=0.25");
     await click("#other-page");

@@ -32,6 +32,10 @@ const same = [
   ...["rk4", "velocity-verlet"].flatMap((method) =>
     ["contact/collision", "joints/double-pendulum", "springs/net"].map((id) => [id, `core:${method}`]),
   ),
+  ...["bullet", "ode"].flatMap((engine) =>
+    ["ballistic/orientation-updates", "contact/collision", "joints/double-pendulum", "tops/dzhanibekov-box"].map((id) => [id, engine]),
+  ),
+  ["contact/stack-of-ten", "bullet"],
 ];
 // Eigen sums in another order where it has vector instructions, as in the program (cases/docs/guides/laboratory.md).
 const different = [
@@ -39,6 +43,8 @@ const different = [
   ["contact/stack-of-ten", "core:velocity-verlet"],
   ["contact/tumbling-box", "core:velocity-verlet"],
   ["springs/fixed-spring", "core:implicit-midpoint"],
+  ["springs/fixed-spring", "bullet"],
+  ["springs/fixed-spring", "ode"],
 ];
 
 const [rigor, glue, suite, ...words] = process.argv.slice(2);

@@ -8,7 +8,7 @@ import { LessonView } from "./lesson_view.js";
 import { LivePlots } from "./live_plots.js";
 import { OwnFile } from "./own_file.js";
 import { Picture } from "./picture.js";
-import { fittingRun } from "./run_names.js";
+import { fittingRun, learnEngines } from "./run_names.js";
 
 const plotEvery = 100; // ms
 
@@ -46,6 +46,7 @@ export class App {
     const answer = await this.bench.methods();
     if (!answer.ok) throw new Error(answer.why);
     this.methods = answer.methods;
+    learnEngines(this.methods);
     await this.open();
   }
 

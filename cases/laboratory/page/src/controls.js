@@ -124,22 +124,7 @@ export class Controls {
             ),
           }),
       },
-      methods.map((one) => {
-        const lacks = facts.lacks[one.name];
-        const label =
-          one.engine ??
-          (one.twin_of ? `${one.name} (the scheme of ${engineNames[one.twin_of] ?? one.twin_of})` : one.name);
-        return el(
-          "option",
-          {
-            value: one.name,
-            selected: one.name === parts.method,
-            disabled: Boolean(lacks),
-            title: lacks ?? one.summary,
-          },
-          label + (lacks ? " – not here" : ""),
-        );
-      }),
+      this.methodGroups(parts.method),
     );
     const failure = bench.runs[k]?.why || bench.runs[k]?.ended;
     return el(
@@ -195,6 +180,30 @@ export class Controls {
         ),
       ),
     );
+  }
+
+  // The core's own methods, those that repeat an engine's scheme, and the engines themselves.
+  methodGroups(chosen) {
+    const { methods, facts } = this.app;
+    const option = (one) => {
+      const lacks = facts.lacks[one.name];
+      const label =
+        one.engine ?? (one.twin_of ? `${one.name} (the scheme of ${engineNames[one.twin_of] ?? one.twin_of})` : one.name);
+      return el(
+        "option",
+        { value: one.name, selected: one.name === chosen, disabled: Boolean(lacks), title: lacks ?? one.summary },
+        label + (lacks ? " – not here" : ""),
+      );
+    };
+    const groups = [
+      ["Rigor's core", (one) => !one.engine && !one.twin_of],
+      ["engines", (one) => one.engine],
+      ["schemes of engines, in the core", (one) => one.twin_of],
+    ];
+    return groups
+      .map(([label, has]) => [label, methods.filter(has)])
+      .filter(([, rows]) => rows.length > 0)
+      .map(([label, rows]) => el("optgroup", { label }, rows.map(option)));
   }
 
   setRun(k, parts) {

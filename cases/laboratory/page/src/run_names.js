@@ -1,8 +1,14 @@
-// Names of runs, as everywhere in Rigor: core:METHOD,orientation=…,contact=….
+// Names of runs, as everywhere in Rigor: core:METHOD,orientation=…,contact=…, or ENGINE.
 import { nearestWord } from "./nearest.js";
 import { outside } from "./simulators.js";
 
 const isOutside = (name) => outside.some((one) => one.name === name);
+
+// Every engine beside the core, wherever it runs.
+const engines = new Set();
+export function learnEngines(methods) {
+  for (const { name, engine } of methods) if (engine) engines.add(name);
+}
 
 // The worker that a run needs (simulators.js).
 export const kindOf = (name) => (isOutside(partsOf(name).method) ? partsOf(name).method : "core");
@@ -16,7 +22,7 @@ export function nameOf({ method, options }) {
   const texts = Object.entries(options)
     .filter(([, value]) => value)
     .map(([name, value]) => `${name}=${value}`);
-  return [isOutside(method) ? method : `core:${method}`, ...texts].join(",");
+  return [engines.has(method) ? method : `core:${method}`, ...texts].join(",");
 }
 
 export const shortName = (name) =>
