@@ -16,7 +16,7 @@ namespace {
 Scene only_forces(const Scene& scene) {
   Scene left;
   left.bodies = scene.bodies, left.forces = scene.forces, left.joints = scene.joints;
-  for (Joint& joint : left.joints) joint.stiffness = joint.quadratic_stiffness = joint.damping = 0;
+  for (Joint& joint : left.joints) joint.stiffness = joint.damping = 0;
   std::copy_if(scene.motors.begin(), scene.motors.end(), std::back_inserter(left.motors),
                [](const Motor& motor) { return motor.servo.has_value(); });
   return left;

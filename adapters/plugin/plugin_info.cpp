@@ -171,10 +171,13 @@ std::optional<Feature> declared_feature(const std::string& word) {
   return feature_of(start + std::min(first, second) + "-" + std::max(first, second));
 }
 
-// Forces and torques on the bodies are all that these need.
+// Forces and torques on the bodies are all that these need. An engine that computes springs itself says whether it
+// knows those whose stiffness grows.
 Features with_wrenches(Features features) {
   if (!features.contains(Feature::wrench)) return features;
-  features.insert({Feature::spring, Feature::quadratic_spring, Feature::timed_force});
+  if (!features.contains(Feature::spring) && !features.contains(Feature::joint_spring))
+    features.insert(Feature::quadratic_spring);
+  features.insert({Feature::spring, Feature::timed_force});
   if (std::any_of(features.begin(), features.end(), is_joint))
     features.insert({Feature::joint_damper, Feature::joint_spring, Feature::joints_with_dampers, Feature::motor_effort,
                      Feature::motor_servo, Feature::motor_table});

@@ -23,9 +23,9 @@ SimTK::Rotation rotation_of(const Mat3& R) {
 bool moves(const Scene& scene, int body) { return body != kWorld && !scene.bodies[body].fixed; }
 
 // Linear springs are Simbody's own; gravity too.
-bool is_simbodys(const Spring& spring) { return spring.quadratic_stiffness == 0; }
-Scene without_springs(Scene scene) {
-  scene.springs.erase(std::remove_if(scene.springs.begin(), scene.springs.end(), is_simbodys), scene.springs.end());
+bool is_linear(const Spring& spring) { return spring.quadratic_stiffness == 0; }
+Scene without_linear_springs(Scene scene) {
+  scene.springs.erase(std::remove_if(scene.springs.begin(), scene.springs.end(), is_linear), scene.springs.end());
   return scene;
 }
 
@@ -66,7 +66,7 @@ class StageLoads : public SimTK::Force::Custom::Implementation {
 
 SimbodySystem::SimbodySystem(const Scene& scene)
     : scene_(scene),
-      loads_(without_springs(scene)),
+      loads_(without_linear_springs(scene)),
       matter_(system_),
       forces_(system_),
       gravity_(forces_, matter_, simbody_of(scene.gravity)),
@@ -135,7 +135,7 @@ void SimbodySystem::refuse_no_length(const Spring& spring) const {
 
 void SimbodySystem::add_springs() {
   for (const Spring& spring : scene_.springs) {
-    if (!is_simbodys(spring)) continue;
+    if (!is_linear(spring)) continue;
     const auto station = [&](int body, const Vec3& point) {
       if (body == kWorld || moves(scene_, body)) return simbody_of(point);
       const BodyPose pose = scene_.pose(body);

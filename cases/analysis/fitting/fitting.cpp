@@ -8,7 +8,6 @@
 
 #include "cases/analysis/fitting/bootstrap.h"
 #include "cases/analysis/fitting/fit_probe.h"
-#include "cases/analysis/fitting/paired_interval.h"
 #include "cases/analysis/fitting/trial_profile.h"
 #include "cases/case/recording/recording.h"
 #include "core/base/error.h"
@@ -225,31 +224,24 @@ class Fitting {
           split_.training.size(), split_.training.size() == 1 ? "" : "s", kFewestTrials);
       return;
     }
-    const LossesOfTrials losses = [&](const std::vector<BoxPoint>& points) {
-      std::vector<std::vector<double>> found;
-      for (const Errors& one : probe_.errors(points, split_.training)) found.push_back(loss_.of(one));
-      return found;
-    };
-    const Bootstrap bootstrap = bootstrap_around(best.at, losses, input_.seed);
+    const Bootstrap bootstrap = bootstrap_around(
+        best.at,
+        [&](const std::vector<BoxPoint>& points) {
+          std::vector<std::vector<double>> losses;
+          for (const Errors& one : probe_.errors(points, split_.training)) losses.push_back(loss_.of(one));
+          return losses;
+        },
+        input_.seed);
     for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
       FittedParameter& parameter = fit.parameters[i];
-      if (!parameter.unknown.empty()) continue;
-      const ProfileAxis axis = interval_of(best.at, i, bootstrap.axes[i], losses);
-      if (axis.is_low_open && axis.is_high_open)
-        parameter.unknown = "the interval is the whole range";
-      else
-        tell(best.at, i, axis, parameter);
+      const BootstrapAxis& axis = bootstrap.axes[i];
+      constexpr double kWhole = 0.9;  // of the range
+      // An end of the range fits worse, as why_unknown() has seen, so the parabolas have failed.
+      if (parameter.unknown.empty() && (!axis.is_curved || axis.high - axis.low > kWhole))
+        parameter.unknown = "the loss near it tells no interval";
+      if (parameter.unknown.empty()) tell(best.at, i, {axis.low, axis.high, axis.low <= 0, axis.high >= 1}, parameter);
     }
     fit.method = "bootstrap", fit.correlations = bootstrap.correlations;
-  }
-
-  // A parabola that has no minimum, or one as wide as the range, may only be one of a rough loss.
-  static ProfileAxis interval_of(const BoxPoint& best, std::size_t i, const BootstrapAxis& axis,
-                                 const LossesOfTrials& losses) {
-    constexpr double kWhole = 0.9;  // of the range
-    if (axis.is_curved && axis.high - axis.low <= kWhole) return {axis.low, axis.high, axis.low <= 0, axis.high >= 1};
-    const PairedInterval paired = paired_interval(best, i, losses);
-    return {paired.low, paired.high, paired.is_low_open, paired.is_high_open};
   }
 
   // Whether both ends of the range give the very errors of the best value.

@@ -73,6 +73,9 @@ for (const name of [
   "nlohmann-json3-dev",
   "libboost-dev",
   "libqhull-dev",
+  "libode-dev",
+  "libccd2",
+  "libbullet-dev",
   "emscripten",
 ]) {
   const file = `/usr/share/doc/${name}/copyright`;
@@ -146,4 +149,4 @@ console.log(`${cases.length} cases; the simulators have ${kB(gzipSync(wasm, { le
 const names = engines.map(({ info }) => info.name).join(" and ");
 write(out, pageWith([], engines.length > 0 ? { file: "engines.html", text: `with ${names}` } : null));
 if (engines.length > 0)
-  write(join(dirname(out), "engines.html"), pageWith(engines, { file: "index.html", text: "the core alone" }));
+  write(join(dirname(out), "engines.html"), pageWith(engines, { file: "index.html", text: "the smaller page" }));

@@ -1,12 +1,14 @@
 # ODE and Bullet from the sources that Debian's packages are made of, with the options of these packages: double
-# precision, and ODE with libccd. Sets engine_sources and engine_libraries. Without the sources the table of engines has
+# precision, and ODE with libccd. Sets engine_sources, engine_libraries and scheme_rows. Without the sources the table of engines has
 # their schemes as methods of the core alone.
 file(GLOB ODE ${FETCHED}/ode/ode-*)
 file(GLOB BULLET ${FETCHED}/bullet/bullet3-*/src)
 set(engine_libraries "")
+set(scheme_rows "")
 if(NOT ODE OR NOT BULLET)
   set(engine_sources adapters/ode/ode_twin.cpp adapters/ode/ode_twin_joints.cpp adapters/bullet/bullet_twin.cpp
-    adapters/bullet/bullet_twin_joints.cpp adapters/bullet/bullet_twin_rows.cpp cases/laboratory/wasm/scheme_rows.cpp)
+    adapters/bullet/bullet_twin_joints.cpp adapters/bullet/bullet_twin_rows.cpp)
+  set(scheme_rows ${root}/cases/laboratory/wasm/scheme_rows.cpp)
   return()
 endif()
 

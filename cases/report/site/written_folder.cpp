@@ -39,19 +39,26 @@ bool is_same_run(const Json& results, const Json& shown) {
   });
 }
 
+// One text, or one for each trial (html_report.cpp).
+const Json& checked_motion(const Json& motion) {
+  const auto is_text = [](const Json& one) { return one.is_string(); };
+  if (!is_text(motion) && !(motion.is_array() && std::all_of(motion.begin(), motion.end(), is_text)))
+    throw InputError("its playback holds what is no motion");
+  return motion;
+}
+
 // A motion is found by its place: the cells of a case stand in one order in both parts of the report.
-void take_motions_of(const Json& shown, Json& motions, WrittenFolder& out) {
+void take_motions_of(const Json& shown, const Json& motions, WrittenFolder& out) {
   const Json& cases = shown.at("cases");
   if (motions.at("cases").size() != cases.size()) throw InputError("its playback has other cases");
   std::map<std::string, std::size_t> places, next;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     places[word_at(cases[i], "id")] = i;
-    out.truth_motions[word_at(cases[i], "id")] = motions.at("cases")[i].at("truth");
+    out.truth_motions[word_at(cases[i], "id")] = checked_motion(motions.at("cases")[i].at("truth"));
   }
   for (const Json& cell : shown.at("cells")) {
     const std::string id = word_at(cell, "case");
-    Json& packed = motions.at("cases")[places.at(id)].at("cells").at(next[id]++);
-    out.motions[cell_key_of(cell)] = std::move(packed);
+    out.motions[cell_key_of(cell)] = checked_motion(motions.at("cases")[places.at(id)].at("cells").at(next[id]++));
   }
   out.series = motions.at("series");
 }
@@ -99,7 +106,7 @@ void read_report(WrittenFolder& folder, std::vector<std::string>& notes) {
     const std::string page = read_input_file(file.string(), "a report.html");
     const Json packed = parse_json(data_of_element(page, kResultsElement));
     Json shown = parse_json(inflated(from_base64(packed.at("data").get<std::string>()), kLargestPage));
-    Json motions = parse_json(data_of_element(page, kPlaybackElement));
+    const Json motions = parse_json(data_of_element(page, kPlaybackElement));
     if (!is_same_run(folder.results, shown))
       throw InputError("it belongs to another run than the results.json beside it");
     take_motions_of(shown, motions, folder);

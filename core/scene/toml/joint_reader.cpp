@@ -40,20 +40,9 @@ void read_limits(const TableReader& row, Joint& joint) {
   }
 }
 
-}  // namespace
-
-double read_quadratic_stiffness(const TableReader& row, double stiffness) {
-  const auto quadratic = row.find("quadratic_stiffness");
-  const double value = quadratic ? quadratic->non_negative() : 0;
-  refuse_if(fault_of_quadratic(stiffness, value), row);
-  return value;
-}
-
-namespace {
-
 void read_coordinate(const TableReader& row, Joint& joint) {
   if (const auto stiffness = row.find("stiffness")) joint.stiffness = stiffness->non_negative();
-  joint.quadratic_stiffness = read_quadratic_stiffness(row, joint.stiffness);
+  if (const auto quadratic = row.find("quadratic_stiffness")) joint.quadratic_stiffness = quadratic->non_negative();
   if (const auto damping = row.find("damping")) joint.damping = damping->non_negative();
   if (const auto armature = row.find("armature")) joint.armature = armature->non_negative();
   if (const auto rest = row.find("rest")) {

@@ -31,9 +31,6 @@ Motor read_motor(const TableReader& row, const Scene& scene);
 // The Coulomb friction of the joint that was read last, from its row; empty without.
 std::optional<Motor> read_friction(const TableReader& row, const Scene& scene);
 
-// Of a spring or a joint with that stiffness.
-double read_quadratic_stiffness(const TableReader& row, double stiffness);
-
 // [from, until) of a force or motor [s].
 void read_times(const TableReader& row, double& from, double& until);
 

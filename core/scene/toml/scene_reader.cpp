@@ -100,7 +100,8 @@ class SceneReader {
     spring.point_a = vector_or_zero(row, "point_a") + (ends.a == kWorld ? ends.offset : Vec3::Zero());
     spring.point_b = vector_or_zero(row, "point_b") + (ends.b == kWorld ? ends.offset : Vec3::Zero());
     spring.stiffness = row.at("stiffness").non_negative();
-    spring.quadratic_stiffness = read_quadratic_stiffness(row, spring.stiffness);
+    if (const auto quadratic = row.find("quadratic_stiffness")) spring.quadratic_stiffness = quadratic->non_negative();
+    refuse_if(fault_of_quadratic(spring.stiffness, spring.quadratic_stiffness), row);
     if (const auto damping = row.find("damping")) spring.damping = damping->non_negative();
     const auto rest_length = row.find("rest_length");
     spring.rest_length = rest_length ? rest_length->non_negative()

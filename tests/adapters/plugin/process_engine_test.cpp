@@ -229,6 +229,22 @@ BOOST_AUTO_TEST_CASE(wrenches_give_it_what_it_does_not_declare_itself) {
   BOOST_TEST((loads_left_to_rigor(scene, info).springs.empty() && loads_left_to_rigor(scene, info).forces.empty()));
 }
 
+// An engine that computes springs itself may not know those whose stiffness grows: then no run is green by the rest.
+BOOST_AUTO_TEST_CASE(wrenches_bring_quadratic_springs_only_where_rigor_computes_all_springs) {
+  const auto has_them = [](const std::string& features) {
+    const PluginInfo info =
+        read_plugin_info(R"({"ok":true,"name":"mine","version":"1","precision":"double","features":[)" + features +
+                             R"(],"methods":[{"name":"euler"}]})",
+                         "mine");
+    return info.engine.features.contains(Feature::quadratic_spring);
+  };
+  BOOST_TEST(has_them(R"("wrench","joint:hinge")"));
+  BOOST_TEST(!has_them(R"("wrench","spring")"));
+  BOOST_TEST(!has_them(R"("wrench","joint:hinge","joint-spring")"));
+  BOOST_TEST(has_them(R"("wrench","spring","quadratic-spring")"));
+  BOOST_TEST(!has_them(R"("spring")"));
+}
+
 // Steps of its own, one request each, and many in one: by a program that has raw columns, and one that has not.
 BOOST_AUTO_TEST_CASE(a_run_of_many_steps_is_as_many_steps) {
   const Scene scene = test::tumbling_body();

@@ -75,10 +75,10 @@ class PathWalk {
       walked_ +=
           steps_[i].is_index ? fmt::format("[{}]", steps_[i].index) : (walked_.empty() ? "" : ".") + steps_[i].word;
     }
-    const Edit whole{offset(node->source().begin), offset(node->source().end), value};
-    if (is_one_number(node)) return {whole.begin, whole.end, repeated(value, node->as_array()->size())};
-    if (node->is_table() || node->is_array()) refuse("is no single value; give the path of a number in it");
-    return whole;
+    const bool is_cubes = is_list_of_a_cube(node);
+    if (!is_cubes && (node->is_table() || node->is_array()))
+      refuse("is no single value; give the path of a number in it");
+    return {offset(node->source().begin), offset(node->source().end), is_cubes ? three_times(value) : value};
   }
 
  private:
@@ -86,19 +86,16 @@ class PathWalk {
     throw InputError(fmt::format("'{}': {} {}", shown(path_), walked_.empty() ? "the file" : shown(walked_), why));
   }
 
-  // A list that says one number several times, as the inertia or the size of a cube. All of them become the new one.
-  static bool is_one_number(const toml::node* node) {
+  // The three equal moments or edges of a cube, which stay equal. Vectors of three equal numbers are no such list.
+  bool is_list_of_a_cube(const toml::node* node) const {
+    const std::string& key = steps_.back().word;
     const toml::array* list = node->as_array();
-    if (!list || list->size() < 2) return false;
+    if ((key != "inertia" && key != "size") || !list || list->size() != 3) return false;
     const auto first = list->get(0)->value<double>();
     return first && std::all_of(list->begin(), list->end(),
                                 [&](const toml::node& one) { return one.is_number() && one.value<double>() == first; });
   }
-  static std::string repeated(const std::string& value, std::size_t count) {
-    std::string text = "[" + value;
-    for (std::size_t k = 1; k < count; ++k) text += ", " + value;
-    return text + "]";
-  }
+  static std::string three_times(const std::string& value) { return fmt::format("[{0}, {0}, {0}]", value); }
 
   // The one table that a scene does without where all of it is 0.
   bool is_new_law(std::size_t at) const {

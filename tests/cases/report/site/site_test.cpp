@@ -219,12 +219,19 @@ BOOST_AUTO_TEST_CASE(cells_that_failed_count_as_not_within) {
 }
 
 BOOST_AUTO_TEST_CASE(a_report_of_another_run_lends_no_motion) {
+  const std::string report = content("out/report.html");
   Json other = results;
   other["wall_seconds"] = results["wall_seconds"].get<double>() * 1.01;
   write("out", other);
   const Answer answer = run({"site", "out"});
   BOOST_TEST_REQUIRE(answer.code == 0, answer.err);
   BOOST_TEST(answer.err.find("belongs to another run") != std::string::npos, answer.err);
+  write("out", results);
+  std::string page = report;
+  const std::size_t truth = page.find("\"truth\":\"");
+  BOOST_TEST_REQUIRE(truth != std::string::npos);
+  folder.write("out/report.html", page.replace(truth, 9, "\"truth\":7,\"other\":\""));
+  BOOST_TEST(run({"site", "out"}).err.find("holds what is no motion") != std::string::npos);
   folder.write("out/report.html",
                "<script type=\"application/json\" id=\"rigor-results\">{\"data\":\"AAAA\"}</script>");
   BOOST_TEST(run({"site", "out"}).err.find("no playback") != std::string::npos);

@@ -1,7 +1,7 @@
 // One case: the truth, the runs in motion, their series over time, and the summary over all step sizes.
 import { asideOf, cellOf, dtOf, judgement, hasNumbers, isAgainstTolerance, isHeldToItself } from "./data.js";
 import { el, replace } from "./dom.js";
-import { quantity } from "./format.js";
+import { isNumber, quantity } from "./format.js";
 import { caseHeading } from "./case_heading.js";
 import { convergence, stabilityMap, workPrecision } from "./charts.js";
 import { gatesTable, numbersTable, sceneFile, settingsTable } from "./case_tables.js";
@@ -148,6 +148,8 @@ export class CaseView {
         ? errorOfTrial(this.one, cell, trialOf(this.one))
         : cell.metrics?.[this.one.main]?.value;
       const value = hasNumbers(cell) ? quantity(error, this.results.units[this.one.main]) : "";
+      // The verdict on several trials is the worst one's, so the error of the one shown says more.
+      const hasOwnValue = verdict.kind === "drift" || (this.one.trials.length > 0 && isNumber(error));
       return el(
         `button.chip${engine.stock ? ".is-stock" : ""}`,
         {
@@ -165,7 +167,7 @@ export class CaseView {
         el(
           `span.word.is-${verdict.kind}`,
           {},
-          verdict.kind === "good" ? value : `${verdict.sign} ${verdict.kind === "drift" ? value : verdict.word}`,
+          verdict.kind === "good" ? value : `${verdict.sign} ${hasOwnValue ? value : verdict.word}`,
         ),
         i < 10 ? el("kbd", {}, (i + 1) % 10) : null,
       );

@@ -57,7 +57,7 @@ export function commands({ one, dt, shown }, tolerance) {
     ["Run it again", `rigor run ${one.id} --dt ${dt.text}${chosen}`],
     first && isFriction ? ["Fit the friction", `rigor fit ${one.id} --engine ${first} --dt ${dt.text} --vary scene.contact_default.friction=0.02..0.6`] : null,
     first && isComputed ? ["Find the cheapest setting", `rigor tune ${one.id} --engine ${first.split(/[:@,]/)[0]} --within ${Number((1000 * tolerance).toPrecision(3))}mm`] : null,
-    first ? ["Keep its motion", `rigor trace ${one.id} --engine ${first} --dt ${dt.text} > run.csv`] : null,
+    first ? [one.trials.length ? "Keep the first trial's motion" : "Keep its motion", `rigor trace ${one.id} --engine ${first} --dt ${dt.text} > run.csv`] : null,
   ].filter(Boolean);
   return el("dl.commands", {}, rows.map(([label, command]) => [el("dt", {}, label), el("dd", {}, el("code", {}, command), copied(command))]));
 }

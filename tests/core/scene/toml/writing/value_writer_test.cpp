@@ -53,15 +53,17 @@ BOOST_AUTO_TEST_CASE(a_value_is_found_by_its_path_and_nothing_else_changes) {
   BOOST_TEST(changed == kText);
 }
 
-BOOST_AUTO_TEST_CASE(a_list_of_one_number_changes_as_a_whole) {
+BOOST_AUTO_TEST_CASE(the_equal_moments_of_a_cube_change_together) {
   const Scene scene = with("scene.body.ball.inertia", "0.75");
   BOOST_TEST((scene.bodies[1].inertia == 0.75 * Mat3::Identity()));
   BOOST_TEST(scene.bodies[0].inertia(0, 0) == 1);
-  for (const char* path : {"scene.body.cube.inertia", "scene.gravity"}) {  // of several numbers
-    BOOST_CHECK_EXCEPTION(with(path, "1"), InputError, [](const InputError& error) {
+  const auto is_refused = [](const std::string& text, const char* path) {
+    BOOST_CHECK_EXCEPTION(with_value(text, path, "1"), InputError, [](const InputError& error) {
       return std::string(error.what()).find("is no single value") != std::string::npos;
     });
-  }
+  };
+  is_refused(kText, "scene.body.cube.inertia");                             // of several numbers
+  is_refused(with_value(kText, "scene.gravity[1]", "0"), "scene.gravity");  // equal, but a vector
 }
 
 BOOST_AUTO_TEST_CASE(a_key_that_is_not_written_is_added_to_its_table) {
