@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -32,7 +33,7 @@ void fill_row(double* block, std::size_t k, bool of_balls, const ContactConstrai
   set_vector(block, kNormal, k, constraint.normal);
   set_vector(block, kFrictionImpulse, k, impulse_scale * constraint.friction_impulse);
   at(block, kImpulse, k) = impulse_scale * constraint.normal_impulse;
-  at(block, kInitialGap, k) = constraint.gap;
+  at(block, kInitialGap, k) = constraint.gap - constraint.rest_overlap;
   at(block, kFriction, k) = constraint.friction;
   at(block, kRestitution, k) = constraint.restitution;
   if (of_balls) {
@@ -214,6 +215,23 @@ void ContactRowLayout::store_impulses(std::vector<ContactConstraint>& constraint
     constraint.normal_impulse = at(block, kImpulse, k);
     constraint.friction_impulse = friction_impulse(groups_[g], block, k, constraint.normal);
   });
+}
+
+// At rest with an overlap x, a soft constraint keeps its impulse p if mass_scale bias_rate x = impulse_scale k p.
+void ContactRowLayout::carry_without_overlap(std::vector<ContactConstraint>& constraints,
+                                             const SolverParameters& parameters) {
+  for (std::size_t thread = 0; thread < threads_; ++thread) {
+    for_each_row(thread, [&](std::size_t g, std::size_t k, std::size_t i, std::size_t point) {
+      double* block = groups_[g].block(point);
+      const bool is_at_rest = std::abs(at(block, kApproachSpeed, k)) <= parameters.tolerance;
+      if (!is_at_rest || constraints[i].is_deep) return;
+      const double push =
+          parameters.impulse_scale * at(block, kImpulse, k) / at(block, kNormalMass, k) / parameters.mass_scale;
+      if (push > parameters.max_push_speed) return;
+      constraints[i].rest_overlap = push / parameters.bias_rate;
+      at(block, kInitialGap, k) -= constraints[i].rest_overlap;
+    });
+  }
 }
 
 // In W. Rows of balls hold it so, others by two tangents.

@@ -41,6 +41,10 @@ class ContactRowLayout {
   // Impulses of a thread's rows back to the constraints they were assigned from.
   void store_impulses(std::vector<ContactConstraint>& constraints, std::size_t thread) const;
 
+  // Points that carry a load at rest from the start. A soft constraint carries it only by an overlap, so a stack would
+  // sag and rock at first. Their gaps count from that overlap on, which leaves the bodies where they are.
+  void carry_without_overlap(std::vector<ContactConstraint>& constraints, const SolverParameters& parameters);
+
   // Adds the impulse of each constraint, on its body a, to its place in `impulses` [N s, in W].
   void add_impulses(const std::vector<ContactConstraint>& constraints, Vec3* impulses) const;
   // The places at which the rows of so many constraints keep their normal impulses [N s], until the next assign().

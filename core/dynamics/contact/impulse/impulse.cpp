@@ -7,7 +7,8 @@
 // where the bias lets a gap close within h, or pushes an overlap out like a damped spring of contact_hertz. The
 // positions are integrated with these velocities. Then the constraints are relaxed, which is the same without bias, so
 // that pushed bodies keep no speed. The first sub-step of a run has no impulses to start from. With up to
-// 1000 contacts it repeats both passes until they agree, at most 300 times. Fast contacts that bounce have their
+// 1000 contacts it repeats both passes until they agree, with points that touch as rigid ones. From then on these carry
+// their load without an overlap (ContactRowLayout::carry_without_overlap()). Fast contacts that bounce have their
 // impacts before, each at its own instant of the sub-step (rebounds.h). The row arithmetic, several rows at a time, is
 // in kernels/contact_row_kernels-inl.h.
 #include <fmt/format.h>
@@ -83,6 +84,7 @@ class ImpulseStepper : public ContactStepper {
         prepare_sub_step();
         move_freely(state, t + k * h);
         threads_->run([&](std::size_t thread) { solve_sub_step(state, k == first, thread); });
+        if (!are_impulses_known_) rows_.carry_without_overlap(constraints, parameters_);
         are_impulses_known_ = true;
         if (reports_.is_asked()) reports_.add_rows(rows_, constraints);
       }
@@ -117,9 +119,12 @@ class ImpulseStepper : public ContactStepper {
   }
 
  private:
-  // For sub-steps of h with these contacts: effective masses, and the last impulses, scaled to h.
-  void prepare(BodyColumns state, const std::vector<ContactConstraint>& constraints, double h) {
+  // For sub-steps of h with these contacts: effective masses, and the last impulses and overlaps, scaled to h.
+  void prepare(BodyColumns state, std::vector<ContactConstraint>& constraints, double h) {
     const double impulse_scale = parameters_.h > 0 ? h / parameters_.h : 1;
+    if (impulse_scale != 1) {
+      for (ContactConstraint& point : constraints) point.rest_overlap *= impulse_scale * impulse_scale;
+    }
     are_impulses_known_ = parameters_.h > 0 || constraints.size() > SubSteps::kMostAtRest;
     parameters_ = sub_steps_.parameters(h);
     rows_.assign(constraints, are_impulses_known_);
@@ -144,7 +149,7 @@ class ImpulseStepper : public ContactStepper {
   // Gaps and the speeds at which they close, before the bodies move, and with them the biases. The velocities are those
   // that the last sub-step has left.
   void prepare_sub_step() {
-    threads_->run([&](std::size_t thread) { search_.find(rows_, solver_bodies(), parameters_, thread); });
+    threads_->run([&](std::size_t thread) { search_.find(rows_, solver_bodies(), of_sweeps(), thread); });
     search_.give(rows_, impacts_);
   }
 
@@ -202,7 +207,7 @@ class ImpulseStepper : public ContactStepper {
   // start.
   void solve_with_bias(std::size_t thread) {
     for_each_colour(thread, [&](const RowGroup* groups, std::size_t count) {
-      contact_kernels().solve_with_bias(groups, count, solver_bodies(), parameters_);
+      contact_kernels().solve_with_bias(groups, count, solver_bodies(), of_sweeps());
     });
     RowSweeps& to_agree = are_impulses_known_ ? impacts_ : many_passes_;
     to_agree.solve(contact_kernels().sweep_with_bias, solver_bodies(), of_sweeps(), thread);
@@ -248,7 +253,7 @@ class ImpulseStepper : public ContactStepper {
   }
 
   SolverParameters of_sweeps() const {
-    return are_impulses_known_ ? parameters_ : SubSteps::until_at_rest(parameters_);
+    return are_impulses_known_ ? parameters_ : SubSteps::until_at_rest(parameters_, rows_.rows_of_many_passes().size());
   }
 
   static std::ptrdiff_t at_record(std::size_t body) { return static_cast<std::ptrdiff_t>(kRecord * body); }

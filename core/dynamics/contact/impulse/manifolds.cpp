@@ -267,6 +267,7 @@ void Manifolds::match_impulses(const std::pair<int, int>& at, std::size_t first,
     taken |= 1u << (best - old);
     point.normal_impulse = old_constraints_[best].normal_impulse;
     point.friction_impulse = old_constraints_[best].friction_impulse;
+    point.rest_overlap = old_constraints_[best].rest_overlap;
   }
 }
 

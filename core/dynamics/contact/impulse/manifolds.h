@@ -27,10 +27,12 @@ struct ContactConstraint {
   double gap;                            // m
   double normal_impulse = 0;             // N s
   Vec3 friction_impulse = Vec3::Zero();  // N s, in W
+  double rest_overlap = 0;               // m: see ContactRowLayout::carry_without_overlap()
 
   template <typename Archive>
   void archive_state(Archive& archive) {
-    archive(a, b, feature, is_deep, friction, restitution, normal, arm_a, arm_b, gap, normal_impulse, friction_impulse);
+    archive(a, b, feature, is_deep, friction, restitution, normal, arm_a, arm_b, gap, normal_impulse, friction_impulse,
+            rest_overlap);
   }
 };
 

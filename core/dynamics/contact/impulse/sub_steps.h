@@ -43,8 +43,9 @@ class SubSteps {
   int contact_updates(double dt, int count) const;
   // For sub-steps of h [s].
   SolverParameters parameters(double h) const;
-  // The same, for sweeps that start with no impulses and go on until bodies at rest stay at rest.
-  static SolverParameters until_at_rest(SolverParameters parameters);
+  // The same, for sweeps that start with no impulses and go on until bodies at rest stay at rest. Points that touch are
+  // rigid: a soft one would first give way.
+  static SolverParameters until_at_rest(SolverParameters parameters, std::size_t constraints);
   // So many constraints at most: with more, these sweeps would take longer than the steps that follow.
   static constexpr std::size_t kMostAtRest = 1000;
   SettingsInForce settings_in_force() const;

@@ -50,8 +50,8 @@ BOOST_AUTO_TEST_CASE(ten_boxes_stand_for_a_minute_at_a_coarse_step) {
   }
 }
 
-// Slightly tilted, it lands on a point of its rim and rocks, until inelastic contact has taken its energy. A scheme that
-// feeds the rocking keeps it going.
+// Slightly tilted, it lands on a point of its rim and rocks, until inelastic contact has taken its energy. A scheme
+// that feeds the rocking keeps it going.
 BOOST_AUTO_TEST_CASE(a_cylinder_that_lands_on_its_rim_comes_to_rest) {
   Scene scene = on_floor({solid("cylinder", Cylinder{0.5, 2}, {0, 0, 1.05})}, {0, kInfiniteFriction});
   scene.bodies[0].angular_velocity = {0.001, 0.002, 0};
@@ -63,22 +63,66 @@ BOOST_AUTO_TEST_CASE(a_cylinder_that_lands_on_its_rim_comes_to_rest) {
   }
 }
 
-// With one sub-step in a step, sweeps leave 5e-4 of a weight. Further sub-steps make one pass each while
-// the boxes settle by the give of soft contacts: some 1e-3 of a weight.
+// On level k of ten rests the weight of k boxes. The sweeps of the first sub-step leave 5e-7 of the weight, to the side
+// as well, which rocks the stack for a while. Without rigid points in that sub-step the error was a fifth of the
+// weight.
 BOOST_AUTO_TEST_CASE(boxes_that_stand_carry_their_weights_from_the_first_step_on) {
+  constexpr int kBoxes = 10;
+  std::vector<Body> boxes;
+  for (int i = 0; i < kBoxes; ++i)
+    boxes.push_back(solid("box " + std::to_string(i), Box{{0.2, 0.2, 0.2}}, {0, 0, 0.1 + 0.2 * i}));
+  const Scene scene = on_floor(boxes, {0, 0.5});
+  for (const char* integrator : {"explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"}) {
+    for (const double dt : {1.0 / 30, 1.0 / 240, 1.0 / 1000}) {
+      ContactRun run(scene, "impulse", integrator);
+      run.contact_reports().ask_for_contacts();
+      for (int n = 0; n < 20; ++n) {
+        run.step(dt);
+        std::vector<Vec3> on_upper(kBoxes, Vec3::Zero());  // of the pair that each box is the upper one of
+        for (const ReportedContact& contact : run.contact_reports().contacts()) {
+          const bool is_a_upper = contact.b == kBoxes || (contact.a != kBoxes && contact.a > contact.b);
+          on_upper.at(static_cast<std::size_t>(is_a_upper ? contact.a : contact.b)) +=
+              is_a_upper ? Vec3(-contact.force) : contact.force;
+        }
+        for (int i = 0; i < kBoxes; ++i) {
+          const double error = (on_upper[static_cast<std::size_t>(i)] - Vec3(0, 0, (kBoxes - i) * kG)).norm();
+          BOOST_TEST(error < 1e-6 * kBoxes * kG, integrator << " " << dt << " " << n << " " << i << ": " << error);
+        }
+      }
+      BOOST_TEST(farthest_moved(scene, run.state()) < 1e-6);
+    }
+  }
+}
+
+// The gap from which a load counts is that of the start. A box that is lifted off, and put down elsewhere, must not
+// hover.
+BOOST_AUTO_TEST_CASE(a_box_that_stood_lands_like_any_other) {
+  const auto lifted = [](double until) {
+    Scene scene = on_floor({solid("box", Box{{0.2, 0.2, 0.2}}, {0, 0, 0.1})}, {0, 0.5});
+    TimedForce lift;
+    lift.body = 0, lift.force = {1, 0, 15}, lift.until = until;
+    scene.forces = {lift};
+    return scene;
+  };
+  for (const double dt : {1.0 / 30, 1.0 / 240}) {
+    ContactRun run(lifted(0.2), "impulse");
+    run.run(dt, static_cast<int>(std::lround(3 / dt)));
+    // A soft constraint gives way by up to 1e-5 m under the box's weight.
+    BOOST_TEST(std::abs(run.state().position(0).z() - 0.1) < 2e-5, dt << ": " << run.state().position(0).z() - 0.1);
+    BOOST_TEST(run.state().position(0).x() > 0.01);
+    BOOST_TEST(run.state().velocity(0).norm() < 1e-9);
+  }
+}
+
+// A step of another length has sub-steps of another length, under which a load at rest stays at rest.
+BOOST_AUTO_TEST_CASE(a_stack_at_rest_stays_so_when_the_step_changes) {
   std::vector<Body> boxes;
   for (int i = 0; i < 5; ++i)
     boxes.push_back(solid("box " + std::to_string(i), Box{{0.2, 0.2, 0.2}}, {0, 0, 0.1 + 0.2 * i}));
-  for (const auto& [options, bound] :
-       {std::pair(std::map<std::string, std::string>{{"substeps", "1"}}, 2e-3), {{}, 1e-2}}) {
-    ContactRun run(on_floor(boxes, {0, 0.5}), "impulse", "velocity-verlet", options);
-    run.contact_reports().ask_for_contacts();
-    run.step(1.0 / 240);
-    double on_floor = 0;
-    for (const ReportedContact& contact : run.contact_reports().contacts())
-      if (contact.a == 5 || contact.b == 5) on_floor += std::abs(contact.force.z());
-    BOOST_TEST(std::abs(on_floor - 5 * kG) < bound * kG, options.size() << ": " << on_floor - 5 * kG);
-  }
+  const Scene scene = on_floor(boxes, {0, 0.5});
+  ContactRun run(scene, "impulse");
+  for (const double dt : {1.0 / 60, 1.0 / 1000, 1.0 / 30, 1.0 / 240}) run.run(dt, 30);
+  BOOST_TEST(farthest_moved(scene, run.state()) < 1e-8, farthest_moved(scene, run.state()));
 }
 
 BOOST_AUTO_TEST_CASE(a_box_three_hundred_times_heavier_stands_on_a_pyramid_of_light_ones) {
