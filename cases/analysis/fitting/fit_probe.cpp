@@ -72,6 +72,13 @@ struct TrialShare {
   std::size_t point, first, stride;
 };
 
+// Into how many shares the runs of a point go, so that no child waits for long until the last has ended.
+std::size_t shares_of(std::size_t runs, std::size_t points, int jobs) {
+  constexpr std::size_t kForEachJob = 2;
+  const std::size_t wanted = kForEachJob * static_cast<std::size_t>(std::max(1, jobs));
+  return std::min(runs, (wanted + points - 1) / points);
+}
+
 }  // namespace
 
 FitProbe::FitProbe(const FitInput& input, const EngineTable& engines, const Vocabulary& vocabulary)
@@ -134,10 +141,9 @@ RunName FitProbe::run_at(const BoxPoint& point) const { return sweep_.run_of(row
 
 std::vector<std::vector<TrialError>> FitProbe::errors(const std::vector<BoxPoint>& points, const FitTrials& trials) {
   std::vector<std::vector<TrialError>> errors(points.size(), std::vector<TrialError>(trials.size()));
-  const auto shares = static_cast<std::size_t>(std::max(1, input_.jobs));
+  const std::size_t stride = shares_of(trials.size(), points.size(), input_.jobs);
   std::vector<Job> jobs;
   for (std::size_t p = 0; p < points.size(); ++p) {
-    const std::size_t stride = points.size() >= shares ? 1 : std::min(shares, trials.size());
     for (std::size_t first = 0; first < stride; ++first) {
       const TrialShare share{p, first, stride};
       const auto work = [&, share](const Channel& channel) {
@@ -206,7 +212,7 @@ void FitProbe::send_residuals(const std::vector<StartedTrial>& runs, std::size_t
 
 std::vector<TrialResiduals> FitProbe::residuals(const std::vector<StartedTrial>& runs) {
   std::vector<TrialResiduals> all(runs.size());
-  const std::size_t stride = std::min(static_cast<std::size_t>(std::max(1, input_.jobs)), runs.size());
+  const std::size_t stride = shares_of(runs.size(), 1, input_.jobs);
   std::vector<Job> jobs;
   for (std::size_t first = 0; first < stride; ++first)
     jobs.push_back(

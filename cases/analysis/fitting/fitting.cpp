@@ -16,7 +16,10 @@ namespace rigor {
 namespace {
 
 constexpr std::size_t kStarts = 3;
+// Values on each axis in a search from one of the starts, and as many in one that goes on from its end.
+constexpr std::size_t kMostValues = 20;
 constexpr double kApart = 0.2;     // of starts: beyond the first simplex of another
+constexpr double kRough = 1e-2;    // of a range: how near to a minimum a search from one of the starts goes
 constexpr double kAtBound = 1e-3;  // of a range: nearer to its end a minimum cannot be told from one beyond it
 constexpr double kDegrees = 57.29577951308232;
 
@@ -161,16 +164,27 @@ class Fitting {
     loss_ = TrialLoss(usual);
     std::vector<BoxMinimum> tried;
     for (std::size_t p = 0; p < points.size(); ++p) tried.push_back({points[p], mean_of(loss_.of(errors[p]))});
-    BoxMinimum best = tried.front();
     const std::function<double(const BoxPoint&)> function = [&](const BoxPoint& point) {
       return mean_of(loss_.of(errors_at(point)));
     };
-    for (const BoxMinimum& start : distinct_starts(tried, kStarts, kApart)) {
-      // The profile's own search goes on from a rough minimum.
-      const BoxMinimum found = nelder_mead(function, start, {0.1, has_profile() ? 1e-2 : 1e-4, 40 * axes});
-      const bool is_best = minima_.empty() || found.value < best.value;
-      if (is_best) best = found;
-      minima_.insert(is_best ? minima_.begin() : minima_.end(), found.at);
+    std::vector<BoxMinimum> rough;
+    for (const BoxMinimum& start : distinct_starts(tried, kStarts, kApart))
+      rough.push_back(nelder_mead(function, start, {0.1, kRough, kMostValues * axes}));
+    rough = distinct_starts(std::move(rough), kStarts, 0);
+    for (const BoxMinimum& one : rough) minima_.push_back(one.at);
+    // The profile's own search goes on from a rough minimum.
+    return has_profile() ? rough.front() : refined(rough, function);
+  }
+
+  // From the best of these minima, and from others that are nearly as good: one of them may turn out the better.
+  static BoxMinimum refined(const std::vector<BoxMinimum>& rough,
+                            const std::function<double(const BoxPoint&)>& function) {
+    constexpr double kNearly = 0.05;  // of a usual trial's loss: ten times what a rough minimum is off by
+    BoxMinimum best = rough.front();
+    for (const BoxMinimum& one : distinct_starts(rough, kStarts, 3 * kRough)) {
+      if (one.value > rough.front().value + kNearly) continue;
+      const BoxMinimum found = nelder_mead(function, one, {2 * kRough, 1e-4, kMostValues * one.at.size()});
+      if (found.value < best.value) best = found;
     }
     return best;
   }
