@@ -59,8 +59,8 @@ class SceneNumbers {
     add(servo.target.times, servo.target.values, servo.kp, servo.kd, servo.target_speed, servo.most, servo.period);
   }
   void add_law(const ContactLaw& law) {
-    add(law.restitution, law.friction, law.collides, law.rolling_friction, law.torsional_friction, law.stiffness,
-        law.damping, law.dissipation);
+    add(law.restitution, law.friction, law.collides, law.static_friction, law.rolling_friction, law.torsional_friction,
+        law.stiffness, law.damping, law.dissipation);
   }
 
   StateArchive archive_;

@@ -90,6 +90,9 @@ struct Coupling {
 
 // Values of a pair of bodies, because engines combine per-body values by different rules.
 //
+// A point that does not slide resists with up to static_friction * N, and one that slides with friction * N. Impacts
+// have the latter.
+//
 // Rolling friction is a couple of at most rolling_friction * N against the relative angular velocity across the normal,
 // where N is the normal force. Torsional friction is the same about the normal.
 //
@@ -99,6 +102,7 @@ struct ContactLaw {
   double restitution = 0;         // normal speed after over before, 0..1
   double friction = 0;            // Coulomb's coefficient, >= 0, may be kInfiniteFriction
   bool collides = true;           // false: the two bodies pass through each other
+  double static_friction = 0;     // Coulomb's coefficient of points that do not slide; 0: the same as theirs that do
   double rolling_friction = 0;    // m
   double torsional_friction = 0;  // m
   double stiffness = 0;           // N/m; 0: rigid
@@ -106,6 +110,8 @@ struct ContactLaw {
   double dissipation = 0;         // s/m, instead of damping: k x (1 + dissipation x') (Hunt and Crossley)
 
   bool is_soft() const { return stiffness > 0; }
+  bool sticks_better() const { return static_friction > friction; }
+  double sticking_friction() const { return sticks_better() ? static_friction : friction; }
   bool resists_turning() const { return rolling_friction > 0 || torsional_friction > 0; }
 };
 // Of two bodies that pass through each other.

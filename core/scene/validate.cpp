@@ -178,12 +178,16 @@ Fault fault_of(const ContactLaw& law) {
   if (!(law.friction >= 0))
     return SceneFault{"friction", fmt::format("found {}; allowed: a number of at least 0", law.friction)};
   for (const auto& [key, value] :
-       {std::pair("rolling_friction", law.rolling_friction), std::pair("torsional_friction", law.torsional_friction),
-        std::pair("stiffness", law.stiffness), std::pair("damping", law.damping),
-        std::pair("dissipation", law.dissipation)}) {
+       {std::pair("static_friction", law.static_friction), std::pair("rolling_friction", law.rolling_friction),
+        std::pair("torsional_friction", law.torsional_friction), std::pair("stiffness", law.stiffness),
+        std::pair("damping", law.damping), std::pair("dissipation", law.dissipation)}) {
     if (!(value >= 0 && std::isfinite(value)))
       return SceneFault{key, fmt::format("found {}; allowed: a finite number of at least 0", value)};
   }
+  if (law.static_friction > 0 && law.static_friction < law.friction)
+    return SceneFault{"static_friction",
+                      fmt::format("found {}, less than the friction of {}; allowed: as much, or more",
+                                  law.static_friction, law.friction)};
   for (const auto& [key, value] : {std::pair("damping", law.damping), std::pair("dissipation", law.dissipation)}) {
     if (value > 0 && !law.is_soft())
       return SceneFault{key, "without stiffness the contact is rigid; allowed: stiffness, too"};

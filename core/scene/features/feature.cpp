@@ -37,6 +37,7 @@ const FeatureWord kPlainWords[] = {
     {Feature::soft_contact, "soft-contact"},
     {Feature::speed_motor_with_limits, "speed-motor-with-limits"},
     {Feature::spring, "spring"},
+    {Feature::static_friction, "static-friction"},
     {Feature::timed_force, "timed-force"},
     {Feature::torsional_friction, "torsional-friction"},
     {Feature::two_speeds_at_once, "two-speeds-at-once"},

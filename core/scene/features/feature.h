@@ -38,14 +38,15 @@ enum class Feature : int {
   motor_effort,
   motor_servo,
   motor_speed,
-  motor_table,    // an effort that changes in time
-  placed_shapes,  // shapes with poses, several of them for one body
+  motor_table,       // an effort that changes in time
+  placed_shapes,     // shapes with poses, several of them for one body
   quadratic_spring,  // a spring, also of a joint, whose stiffness grows with its extension
   restitution,
   rolling_friction,
   soft_contact,             // a contact with a stiffness
   speed_motor_with_limits,  // a joint with limits and a motor that keeps a speed
   spring,
+  static_friction,  // more friction of points that do not slide
   timed_force,
   torsional_friction,
   two_speeds_at_once,  // a joint with two motors that keep speeds at the same time

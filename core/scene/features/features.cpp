@@ -33,6 +33,7 @@ Feature friction_feature(double friction) {
 void add_contact_law(const ContactLaw& law, const std::string& because, NeedList& needs) {
   needs.add(friction_feature(law.friction), because);
   if (law.restitution > 0) needs.add(Feature::restitution, because);
+  if (law.sticks_better()) needs.add(Feature::static_friction, because);
   if (law.rolling_friction > 0) needs.add(Feature::rolling_friction, because);
   if (law.torsional_friction > 0) needs.add(Feature::torsional_friction, because);
   if (law.is_soft()) needs.add(Feature::soft_contact, because);

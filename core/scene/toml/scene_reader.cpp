@@ -44,11 +44,13 @@ class SceneReader {
  private:
   inline static const Keys kSpringKeys = {"a",         "point_a", "b",           "point_b",
                                           "stiffness", "damping", "rest_length", "quadratic_stiffness"};
-  inline static const Keys kLawKeys = {"restitution", "friction", "rolling_friction", "torsional_friction",
-                                       "stiffness",   "damping",  "dissipation"};
-  inline static const Keys kPairKeys = {
-      "a",         "b",       "restitution", "friction", "collides", "rolling_friction", "torsional_friction",
-      "stiffness", "damping", "dissipation"};
+  inline static const Keys kLawKeys = {"restitution",        "friction",  "static_friction", "rolling_friction",
+                                       "torsional_friction", "stiffness", "damping",         "dissipation"};
+  inline static const Keys kPairKeys = [] {
+    Keys keys = {"a", "b", "collides"};
+    keys.insert(keys.end(), kLawKeys.begin(), kLawKeys.end());
+    return keys;
+  }();
   inline static const Keys kForceKeys = {"body", "force", "torque", "point", "from", "until"};
 
   static std::vector<TableReader> rows(const TableReader& table, std::string_view key, const Keys& allowed) {
@@ -134,7 +136,7 @@ class SceneReader {
     if (const auto restitution = row.find("restitution")) law.restitution = restitution->fraction_of_one();
     if (const auto friction = row.find("friction")) law.friction = friction->non_negative_or_infinite();
     for (const auto& [key, value] :
-         {std::pair("rolling_friction", &law.rolling_friction),
+         {std::pair("static_friction", &law.static_friction), std::pair("rolling_friction", &law.rolling_friction),
           std::pair("torsional_friction", &law.torsional_friction), std::pair("stiffness", &law.stiffness),
           std::pair("damping", &law.damping), std::pair("dissipation", &law.dissipation)}) {
       if (const auto given = row.find(key)) *value = given->non_negative();

@@ -107,7 +107,7 @@ class ContactReports {
 serve({
   info: {
     name: "physx", version: [version >> 24, (version >> 16) & 255, (version >> 8) & 255].join("."), precision: "single", calls: ["run", "contacts"],
-    features: ["wrench", "fixed-body", "restitution", "friction:none", "friction:coulomb", "friction:infinite", "contact:plane-sphere",
+    features: ["wrench", "fixed-body", "restitution", "friction:none", "friction:coulomb", "friction:infinite", "static-friction", "contact:plane-sphere",
                "contact:box-plane", "contact:capsule-plane", "contact:sphere-sphere", "contact:box-sphere", "contact:box-box",
                "contact:capsule-sphere", "contact:box-capsule", "contact:capsule-capsule"],
     methods: [{ name: "pgs", summary: "semi-implicit Euler, projected Gauss and Seidel", order: 1, leapfrog_stagger: 0.5 }],
@@ -118,7 +118,7 @@ serve({
     const reports = new ContactReports(desc);
     let last = 0;
     if (matched) desc.bounceThresholdVelocity = 1e-3; // m/s; 0 is refused
-    const world = physics.createScene(desc), material = physics.createMaterial(law.friction, law.friction, law.restitution);
+    const world = physics.createScene(desc), material = physics.createMaterial(law.staticFriction, law.friction, law.restitution);
     const actors = scene.body.map((body) => actorOf(body, material, matched));
     for (const actor of actors) world.addActor(actor);
     reports.of(actors, world);

@@ -144,6 +144,7 @@ export function oneLaw(scene) {
   const pairs = (moving.length * (moving.length - 1)) / 2 + moving.length * (touching.length - moving.length);
   const laws = rows.length > 0 && rows.length === pairs ? rows : [...rows, scene.contact_default];
   const { restitution, friction } = laws[0];
-  if (laws.some((law) => law.restitution !== restitution || law.friction !== friction)) throw new Unsupported("pairs of bodies have laws of their own");
-  return { restitution, friction: friction === "infinite" ? 1e6 : friction };
+  if (laws.some((law) => law.restitution !== restitution || law.friction !== friction || law.static_friction !== laws[0].static_friction)) throw new Unsupported("pairs of bodies have laws of their own");
+  const finite = friction === "infinite" ? 1e6 : friction;
+  return { restitution, friction: finite, staticFriction: laws[0].static_friction ?? finite };
 }

@@ -3,7 +3,8 @@
 // box's for a solid ball. So the box, with mass M and the weight of all on the plane,
 //     a (M + sum m_i k_i/(1 + k_i)) = F - mu g (M + sum m_i)
 // This is the rolling test of SimBenchmark (Kang and Hwangbo, 2018): 10 kg, 25 balls of 1 kg, 150 N, mu = 0.4 under the
-// box. It gives 0.7385 m/s² for the box and 0.2110 m/s² for the balls. With less force than friction nothing moves.
+// box. It gives 0.7385 m/s² for the box and 0.2110 m/s² for the balls. With no more force than static friction bears,
+// nothing moves.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -52,7 +53,6 @@ class PushedBox {
   bool is_ball(int i) const { return i != box_ && !scene_.bodies[i].fixed; }
   static Extended radius(const Body& ball) { return std::get<Sphere>(*ball.shape).radius; }
   static Extended ratio(const Body& ball) { return ball.inertia(0, 0) / (ball.mass * radius(ball) * radius(ball)); }
-  double friction(int a, int b) const { return scene_.contact_law(a, b).friction; }
   ExtendedVec3 half() const { return extended(std::get<Box>(*scene_.bodies[box_].shape).size) / 2; }
   ExtendedVec3 in_box(const ExtendedVec3& v) const { return extended(scene_.bodies[box_].orientation).conjugate() * v; }
 
@@ -103,10 +103,12 @@ class PushedBox {
       weight += ball.mass, inertia += ball.mass * ratio(ball) / (1 + ratio(ball));
     }
     const ExtendedVec3 force = push();
-    const Extended most = friction(box_, ground_.body()) * ground_.pressing() * weight;
+    const ContactLaw& law = scene_.contact_law(box_, ground_.body());
+    normal_force_ = weight * ground_.pressing();
+    const bool sticks = force.norm() <= law.sticking_friction() * normal_force_;
+    friction_force_ = sticks ? force.norm() : law.friction * normal_force_;
     acceleration_.setZero();
-    if (force.norm() > most) acceleration_ = force.normalized() * ((force.norm() - most) / inertia);
-    normal_force_ = weight * ground_.pressing(), friction_force_ = std::min(force.norm(), most);
+    if (!sticks) acceleration_ = force.normalized() * ((force.norm() - friction_force_) / inertia);
   }
 
   void check_ball(int index) {
@@ -121,7 +123,8 @@ class PushedBox {
     if (std::abs(gap) > kTouching) ground_.refuse(ball, "does not lie on the box");
     widest_gap_ = std::max(widest_gap_, static_cast<double>(std::abs(gap)));
     const Extended k = ratio(ball), needed = acceleration_.norm() * k / (1 + k);
-    if (needed > friction(index, box_) * ground_.pressing()) ground_.refuse(ball, "would slip on the box");
+    if (needed > scene_.contact_law(index, box_).sticking_friction() * ground_.pressing())
+      ground_.refuse(ball, "would slip on the box");
     const Extended moved = -static_cast<Extended>(duration_) * duration_ / 2 / (1 + k);
     for (const ExtendedVec3& at : {start, ExtendedVec3(start + moved * in_box(acceleration_))}) {
       for (int axis = 0; axis < 3; ++axis) {
@@ -175,7 +178,7 @@ std::unique_ptr<Truth> make_pushed(const Scene& scene, double duration) {
   check_needs(scene, kPushed, kPushedIsFor,
               {contact_feature<Box, Plane>(), contact_feature<Box, Sphere>(), contact_feature<Plane, Sphere>(),
                contact_feature<Sphere, Sphere>(), Feature::friction_none, Feature::friction_coulomb,
-               Feature::friction_infinite, Feature::restitution, Feature::timed_force});
+               Feature::friction_infinite, Feature::static_friction, Feature::restitution, Feature::timed_force});
   const PushedBox pushed(scene, duration);
   return closed_form(scene, [&](const Body& body) { return pushed.motion_of(body); });
 }

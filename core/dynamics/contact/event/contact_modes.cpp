@@ -36,7 +36,12 @@ void ContactModes::start_from_cones() {
   }
 }
 
-bool ContactModes::solve(BodyColumns state, const double* wrench) {
+bool ContactModes::slides(const PersistentPoint& point, Slips slips) const {
+  if (slips == Slips::as_chosen && point.mode == PersistentPoint::Mode::slides) return true;
+  return std::isfinite(point.friction()) && point.velocity.tail<2>().norm() > kSliding * scales().speed();
+}
+
+bool ContactModes::solve(BodyColumns state, const double* wrench, Slips slips) {
   accelerations_ = state;
   const double* const total = joints_ ? joints_->hold(state, wrench, ConstraintForces::Rows::chosen_anew) : wrench;
   const MutableBodyColumns table = accelerations_.columns();
@@ -51,22 +56,39 @@ bool ContactModes::solve(BodyColumns state, const double* wrench) {
     cone.offset = point.bias;
     cone.target_velocity = 0;
     cone.impulse = point.force.x() > 0 ? point.force : Vec3::Zero();
+    if (!slides(point, slips)) cone.friction = point.static_friction();
     size_ = std::max(size_, (ConeSolver::velocity_at(cone, table) + point.bias).norm());
     cones_.push_back(cone);
   }
   start_from_cones();
   for (std::size_t i = 0; i < cones_.size(); ++i) {
     const PersistentPoint& point = persistent_.points()[i];
-    const double slip = point.velocity.tail<2>().norm();
-    if (slip > kSliding * scales().speed() && std::isfinite(point.friction()))
-      cones_[i].offset.tail<2>() += kSlip * size_ / slip * point.velocity.tail<2>();
+    if (slides(point, Slips::by_speed))
+      cones_[i].offset.tail<2>() += kSlip * size_ * point.velocity.tail<2>().normalized();
   }
   solver_.prepare(table, cones_);
   for (const ConeConstraint& cone : cones_) solver_.push(cone, cone.impulse, table);
-  const bool has_settled = solver_.solve(table, cones_);
+  bool has_settled = solver_.solve(table, cones_);
+  while (has_settled && let_slip(table, slips)) has_settled = solver_.solve(table, cones_);
   for (const ConeConstraint& cone : cones_) size_ = std::max(size_, (cone.inverse_mass * cone.impulse).norm());
   for (std::size_t i = 0; i < cones_.size(); ++i) persistent_.points()[i].force_in_cone = cones_[i].impulse;
   return has_settled;
+}
+
+// Takes their static friction from points that it does not hold. Whether there are any; others may then slip, too.
+bool ContactModes::let_slip(MutableBodyColumns accelerations, Slips slips) {
+  bool are_any = false;
+  for (std::size_t i = 0; i < cones_.size(); ++i) {
+    const PersistentPoint& point = persistent_.points()[i];
+    if (slides(point, slips) || !(cones_[i].friction > point.friction())) continue;
+    if (!(acceleration_of(i).tail<2>().norm() > kSlipping * size_)) continue;
+    cones_[i].friction = point.friction();
+    const Vec3 without = -cones_[i].impulse;
+    solver_.push(cones_[i], without, accelerations);
+    cones_[i].impulse.setZero();
+    are_any = true;
+  }
+  return are_any;
 }
 
 Vec3 ContactModes::acceleration_of(std::size_t point) const {
@@ -76,7 +98,7 @@ Vec3 ContactModes::acceleration_of(std::size_t point) const {
 bool ContactModes::choose(BodyColumns state, const double* wrench) {
   std::vector<PersistentPoint>& points = persistent_.points();
   persistent_.place(state);
-  if (!solve(state, wrench)) return false;
+  if (!solve(state, wrench, Slips::by_speed)) return false;
   std::vector<PersistentPoint> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
     PersistentPoint& point = points[i];
@@ -85,7 +107,7 @@ bool ContactModes::choose(BodyColumns state, const double* wrench) {
     if (point.velocity.x() > kSeparating * scales().speed_unit(cones_[i].is_couple) && !(cones_[i].impulse.x() > 0))
       continue;
     const Eigen::Vector2d slip = point.velocity.tail<2>(), change = acceleration.tail<2>();
-    const bool slides = slip.norm() > kSliding * scales().speed() && std::isfinite(point.friction());
+    const bool slides = this->slides(point, Slips::by_speed);
     point.begins_to_slip = !slides && std::isfinite(point.friction()) && change.norm() > kSlipping * size_;
     point.mode = slides || point.begins_to_slip || point.friction() == 0 ? PersistentPoint::Mode::slides
                                                                          : PersistentPoint::Mode::sticks;
@@ -142,7 +164,7 @@ bool ContactModes::are_at_rest(BodyColumns state) const {
 }
 
 double ContactModes::violation(BodyColumns state, const double* wrench) {
-  const bool has_settled = solve(state, wrench);
+  const bool has_settled = solve(state, wrench, Slips::as_chosen);
   double most = has_settled ? -1 : 1;
   for (std::size_t i = 0; i < persistent_.points().size(); ++i) {
     const Vec3 acceleration = acceleration_of(i) / size_;

@@ -1,6 +1,7 @@
 // Decides which of the touching points stay in contact, and which of them slide, for the method `event`. The forces
 // must satisfy the contact laws in accelerations, with the laws of an impact's velocities,
 //   0 <= u'_n ⊥ f_n >= 0,   |f_t| <= mu f_n, against u'_t where that is not zero; of a point that slides, against u_t.
+// A point that does not slide has its static friction. Where that does not hold it, it has `friction` from then on.
 // If the points outnumber the degrees of freedom, this finds some forces within the cones if there are any.
 // PersistentForces with the same accelerations may have others.
 #pragma once
@@ -30,7 +31,10 @@ class ContactModes {
  private:
   const ContactScales& scales() const { return persistent_.scales(); }
   bool drop_pulling_points(BodyColumns state, const double* wrench);
-  bool solve(BodyColumns state, const double* wrench);
+  enum class Slips { by_speed, as_chosen };
+  bool solve(BodyColumns state, const double* wrench, Slips slips);
+  bool slides(const PersistentPoint& point, Slips slips) const;
+  bool let_slip(MutableBodyColumns accelerations, Slips slips);
   void start_from_cones();
   Vec3 acceleration_of(std::size_t point) const;  // m/s², in the frame
 

@@ -86,7 +86,7 @@ void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int
       contact.cone.a = colliders_[a].body, contact.cone.b = colliders_[b].body;
       const ContactLaw& law = laws_.of(contact.cone.a, contact.cone.b);
       contact.restitution = law.restitution;
-      contact.cone.friction = law.friction;
+      contact.cone.friction = law.friction, contact.static_friction = law.sticking_friction();
       contact.cone.frame = contact_frame(point.normal);
       place(state, point, contact);
       out.push_back(contact);

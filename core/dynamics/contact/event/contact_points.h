@@ -19,6 +19,7 @@ struct ContactPoint {
   std::uint16_t part_a = 0, part_b = 0;  // of compounds: which part touches
   double gap;                            // m; rad of a hinge's limit
   double restitution;
+  double static_friction = 0;  // while it does not slide, at least cone.friction
   ConeConstraint cone;
   static constexpr int kLimit = -1;
   // In the scene's units of gaps: a gap this small is closed.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/dynamics/contact/event/contact_modes.h"
 #include "core/dynamics/contact/event/impacts.h"
 #include "core/engine/state_archive.h"
 
@@ -92,6 +93,9 @@ void CrowdedSteps::stop_overlaps(MutableBodyColumns state, double h) {
   for (const ContactPoint& contact : touching_) {
     cones_.push_back(contact.cone);
     cones_.back().grips = std::isinf(contact.cone.friction);
+    const double slip = ConeSolver::velocity_at(contact.cone, state).tail<2>().norm();
+    if (slip <= ContactModes::kSliding * contact_points_.scales().speed())
+      cones_.back().friction = contact.static_friction;
     cones_.back().impulse = impulse_before(contact) * (h / length_before_);
     const double approach = -ConeSolver::velocity_at(contact.cone, state).x();
     if (!(approach > least) || contact.restitution == 0) continue;

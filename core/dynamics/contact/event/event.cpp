@@ -414,7 +414,7 @@ const ContactMethod kEventContact = {
         joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
                {Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite,
                 Feature::friction_none, Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit,
-                Feature::motor_speed, Feature::joint_friction}),
+                Feature::motor_speed, Feature::joint_friction, Feature::static_friction}),
     .options = {kRestitutionThresholdOption, kThresholdsOption, kPatienceOption},
     .make = make_contact_stepper<EventStepper>,
 };

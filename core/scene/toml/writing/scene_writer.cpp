@@ -160,7 +160,8 @@ Json row_of(const ContactLaw& law) {
               {"friction", std::isfinite(law.friction) ? Json(law.friction) : Json("infinite")}};
   // Absent: 0. Engines from outside that know none of these keep the scenes that they had.
   for (const auto& [key, value] :
-       {std::pair("rolling_friction", law.rolling_friction), std::pair("torsional_friction", law.torsional_friction),
+       {std::pair("static_friction", law.sticks_better() ? law.static_friction : 0),
+        std::pair("rolling_friction", law.rolling_friction), std::pair("torsional_friction", law.torsional_friction),
         std::pair("stiffness", law.stiffness), std::pair("damping", law.damping),
         std::pair("dissipation", law.dissipation)}) {
     if (value > 0) row[key] = value;

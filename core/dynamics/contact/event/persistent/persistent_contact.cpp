@@ -274,7 +274,7 @@ double PersistentContact::margin() const {
   for (const PersistentPoint& point : points()) {
     least = std::min(least, point.force.x());
     if (point.mode == PersistentPoint::Mode::sticks && std::isfinite(point.friction()))
-      least = std::min(least, point.friction() * point.force.x() - point.force.tail<2>().norm());
+      least = std::min(least, point.static_friction() * point.force.x() - point.force.tail<2>().norm());
   }
   return least;
 }

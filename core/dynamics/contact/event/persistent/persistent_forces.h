@@ -43,6 +43,7 @@ struct PersistentPoint {
   double least_slip = 0, largest_slip = 0;            // m/s, at all instants since begin_attempt()
 
   double friction() const { return contact.cone.friction; }
+  double static_friction() const { return contact.static_friction; }
   // The contact's as it is at that instant.
   ConeConstraint cone() const {
     ConeConstraint now = contact.cone;

@@ -145,6 +145,22 @@ BOOST_AUTO_TEST_CASE(a_ball_laid_on_the_plane_slides_as_one_that_bounces_no_more
   }
 }
 
+// With static friction above the friction of sliding, against contact by events.
+BOOST_AUTO_TEST_CASE(a_pushed_box_breaks_away_at_its_static_friction) {
+  Scene scene = test::pushed_box(0.3);
+  scene.bodies.resize(2);  // without the balls
+  scene.contact_default.friction = 0.4, scene.contact_default.static_friction = 0.6;
+  scene.contact_pairs.clear();
+  for (const double share : {0.7, 0.99, 1.01}) {
+    const double limit = 0.6 * scene.bodies[1].mass * 9.81;
+    scene.forces[0].force *= share * limit / scene.forces[0].force.norm();
+    const BodyState pushed = state_of(scene, "pushed", 1, 1), by_events = state_of(scene, "events", 1, 1);
+    BOOST_TEST((pushed.position - by_events.position).norm() < 1e-9, share);
+    BOOST_TEST((pushed.velocity - by_events.velocity).norm() < 1e-9, share);
+    BOOST_TEST(((pushed.velocity.norm() > 0.1) == (share > 1)), share);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_pushed_box_and_its_balls_have_the_published_accelerations) {
   for (const double degrees : {0.0, 45.0, 60.0}) {
     const double angle = degrees * std::numbers::pi / 180;

@@ -47,7 +47,7 @@ class Fields {
   void add(const Vec3& v) { add(v.x()), add(v.y()), add(v.z()); }
   void add(const ContactLaw& law) {
     add(law.restitution), add(law.friction), add(law.collides), add(law.rolling_friction), add(law.torsional_friction);
-    add(law.stiffness), add(law.damping);
+    add(law.stiffness), add(law.damping), add(law.static_friction);
   }
   void add(const Body& body) {
     add(body.name), add(body.mass), add(body.position), add(body.orientation.vec()), add(body.orientation.w());
@@ -224,6 +224,7 @@ until = 2.5
 a = "ground"
 b = "ball"
 friction = 0.4
+static_friction = 0.5
 rolling_friction = 0.02
 torsional_friction = 0.003
 [[scene.force]]
