@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "adapters/siconos/siconos_matched.h"
 #include "adapters/siconos/siconos_options.h"
 #include "core/engine/option_values.h"
 
@@ -12,6 +13,7 @@ std::vector<std::string> siconos_calls(const Settings& settings, const std::stri
   std::vector<std::string> calls = {
       fmt::format("auto osi = std::make_shared<MoreauJeanOSI>({});", number_option(settings, kSiconosThetaOption)),
       "auto osnsp = std::make_shared<FrictionContact>(3, SICONOS_FRICTION_3D_NSGS);"};
+  if (matched) calls.push_back(fmt::format("osi->setConstraintActivationThreshold({:g});", kSiconosTouching));
   const auto set = [&](const OptionInfo& option, const char* place) {
     if (const auto number = number_to_set(settings, option))
       calls.push_back(fmt::format("osnsp->numericsSolverOptions()->{} = {};", place, *number));

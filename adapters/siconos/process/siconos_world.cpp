@@ -69,6 +69,7 @@ void SiconosWorld::start(double time, double dt) {
     if (body) system_->insertDynamicalSystem(body);
   link_joints(scene_, *bodies_, *system_);
   integrator_ = std::make_shared<MoreauJeanOSI>(settings_.theta);
+  if (settings_.is_matched) integrator_->setConstraintActivationThreshold(kSiconosTouching);
   problem_ = contact_problem();
   const auto steps = std::make_shared<TimeDiscretisation>(time, dt);
   simulation_ = std::make_shared<TimeStepping>(system_, steps, 0);
