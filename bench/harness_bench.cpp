@@ -88,9 +88,11 @@ void time_seam(benchmark::State& state, const std::string& name, const std::stri
       run, sum_of_positions);
 }
 
-// A run whose states are hashed, as `rigor repeat --record` does it, and the same run alone.
-void time_hashing(benchmark::State& state, const std::string& scene_name, int count, const std::string& run,
-                  bool is_hashed) {
+// A run alone, and with what may be asked for beside it: hashes of its states, as `rigor repeat --record` has them, or
+// the contact forces of each step.
+enum class Beside { nothing, hashes, contacts };
+void time_beside(benchmark::State& state, const std::string& scene_name, int count, const std::string& run,
+                 Beside beside) {
   constexpr long kSteps = 240;
   const SceneRow& row = scene_row(scene_name);
   const Scene& scene = scene_of(row, count);
@@ -99,11 +101,17 @@ void time_hashing(benchmark::State& state, const std::string& scene_name, int co
   double seconds = 0, checksum = 0;
   for (auto _ : state) {
     const double start = thread_seconds();
-    if (is_hashed) {
+    if (beside == Beside::hashes) {
       checksum = static_cast<double>(hashes_of(recorded(engine, name.settings, scene, row.dt, kSteps)).back());
     } else {
       const auto world = engine.load(scene, name.settings);
-      for (long n = 0; n < kSteps; ++n) world->step(row.dt);
+      ReportsContacts* const reports = beside == Beside::contacts ? world->capabilities().contacts : nullptr;
+      if (beside == Beside::contacts && !reports) return state.SkipWithError("it reports no contact forces");
+      if (reports) reports->ask_for_contacts();
+      for (long n = 0; n < kSteps; ++n) {
+        world->step(row.dt);
+        if (reports) checksum = static_cast<double>(reports->contacts().size());
+      }
     }
     const double taken = thread_seconds() - start;
     seconds += taken;
@@ -193,9 +201,10 @@ void register_harness() {
   }
   for (const char* run : {"core", "ode", "bullet", "mujoco", "dart"}) {
     for (const auto& [scene, count] : {std::pair("chain", 20), std::pair("pile", 20), std::pair("pile", 216)}) {
-      for (const bool is_hashed : {false, true}) {
-        const std::string name = fmt::format("harness/{}/{}/{}/{}", is_hashed ? "hashed" : "plain", scene, count, run);
-        benchmark::RegisterBenchmark(name.c_str(), time_hashing, scene, count, run, is_hashed)->UseManualTime();
+      for (const auto& [word, beside] :
+           {std::pair("plain", Beside::nothing), {"hashed", Beside::hashes}, {"contacts", Beside::contacts}}) {
+        const std::string name = fmt::format("harness/{}/{}/{}/{}", word, scene, count, run);
+        benchmark::RegisterBenchmark(name.c_str(), time_beside, scene, count, run, beside)->UseManualTime();
       }
     }
   }

@@ -134,6 +134,12 @@ std::vector<RatioRow> all_rows() {
                       fmt::format("harness/raw/{}/{}", raw.name, count), Kind::at_most_percent_more, goal});
     }
   }
+  for (const char* engine : {"core", "ode", "bullet", "mujoco", "dart"}) {
+    if (!is_built(engine)) continue;
+    rows.push_back({fmt::format("reading the contact forces of a pile of {}, N = 216", engine),
+                    fmt::format("harness/contacts/pile/216/{}", engine),
+                    fmt::format("harness/plain/pile/216/{}", engine), Kind::at_most_percent_more, 5});
+  }
   return rows;
 }
 
