@@ -66,6 +66,7 @@ class Exporter {
       if (pair.law.collides) leave_out(of_pair(pair), "has a friction of its own; that of the rest is written");
     }
     if (scene_.contact_default.restitution > 0) leave_out("restitution", "MuJoCo has none");
+    if (scene_.contact_default.sticks_better()) leave_out("static friction", "MuJoCo has one coefficient");
     if (scene_.contact_default.resists_turning())
       leave_out("rolling and torsional friction", "MuJoCo combines them with the sliding friction in one cone");
     leave_out_quadratic_springs();

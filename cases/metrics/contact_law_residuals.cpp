@@ -44,13 +44,8 @@ MetricResult measure_signorini(const JudgedRun& run) {
 MetricResult measure_dissipation(const JudgedRun& run) {
   const ContactLaws laws(run.scene);
   return largest_of_contacts(run, [&](const Sample& sample, const ReportedContact& contact) {
-    const BodyColumns bodies = sample.bodies.columns();
-    const auto velocity = [&](int body) {
-      const auto i = static_cast<std::size_t>(body);
-      return Vec3(bodies.velocity(i) + bodies.angular_velocity(i).cross(contact.point - bodies.position(i)));
-    };
-    const Vec3 u = velocity(contact.b) - velocity(contact.a), n = contact.normal;
-    const Vec3 slip = u - n.dot(u) * n, friction = contact.force - n.dot(contact.force) * n;
+    const Vec3 n = contact.normal, slip = slip_of(contact, sample.bodies.columns()),
+               friction = contact.force - n.dot(contact.force) * n;
     const double mu = laws.of(contact.a, contact.b).friction;
     const double most = std::isfinite(mu) ? mu * std::max(0.0, n.dot(contact.force)) * slip.norm() : 0;
     return Instant{0, kWorld, "power of friction", std::max(0.0, friction.dot(slip) + most), 0};

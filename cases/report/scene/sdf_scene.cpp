@@ -204,6 +204,8 @@ class SdfWriter {
       leave_out(fmt::format("a force on '{}'", scene_.body_name(force.body)), "it", "SDF has no timed forces");
     if (scene_.contact_default.resists_turning())
       leave_out("the contact of all bodies", "its rolling and torsional friction", "SDF states them per engine");
+    if (scene_.contact_default.sticks_better())
+      leave_out("the contact of all bodies", "its static friction", "SDF has one coefficient");
     if (scene_.contact_default.is_soft())
       leave_out("the contact of all bodies", "its stiffness", "SDF states it per engine");
     for (const ContactPair& pair : scene_.contact_pairs) {

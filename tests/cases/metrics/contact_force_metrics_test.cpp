@@ -74,6 +74,19 @@ BOOST_AUTO_TEST_CASE(friction_beyond_the_cone_and_a_pull_are_outside_it) {
   BOOST_TEST(std::abs(residual({0, 0, -6}) - 6) < 1e-12);
 }
 
+// A point that rests has its static friction, and one that slides through a whole step has not.
+BOOST_AUTO_TEST_CASE(only_a_point_that_rests_has_static_friction) {
+  Scene scene = ball_on_ground(0.25);
+  scene.contact_default.static_friction = 0.5;
+  const auto residual = [&](double speed) {
+    Trajectory run = standing(scene, 3, [](int) { return std::vector{under_ball({6, 8, 20})}; });
+    for (Sample& sample : run.samples) sample.bodies.columns().set_velocity(kBall, {speed, 0, 0});
+    return value_of("coulomb_residual", scene, run);
+  };
+  BOOST_TEST(residual(0) == 0);
+  BOOST_TEST(std::abs(residual(0.1) - 5) < 1e-12);
+}
+
 // 19 and 21 N in turn: a mean of 20 N, and a deviation of 1 N.
 BOOST_AUTO_TEST_CASE(ripple_is_the_deviation_over_the_mean_of_the_second_half) {
   const Scene scene = ball_on_ground(0.5);

@@ -34,6 +34,15 @@ std::vector<Vec3> forces_on_bodies(const Scene& scene, BodyColumns before, BodyC
   return forces;
 }
 
+Vec3 slip_of(const ReportedContact& contact, BodyColumns bodies) {
+  const auto velocity = [&](int body) {
+    const auto i = static_cast<std::size_t>(body);
+    return Vec3(bodies.velocity(i) + bodies.angular_velocity(i).cross(contact.point - bodies.position(i)));
+  };
+  const Vec3 u = velocity(contact.b) - velocity(contact.a);
+  return u - contact.normal.dot(u) * contact.normal;
+}
+
 std::string why_no_contacts(const JudgedRun& run) {
   if (!anything_can_touch(run.scene)) return "no two bodies of the scene can touch";
   if (!run.trajectory.has_contacts) return "the engine does not report contact forces";

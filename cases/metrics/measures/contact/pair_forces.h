@@ -22,6 +22,9 @@ PairForces reported_pair_forces(const Scene& scene, const Sample& sample);
 // the sum of its contact forces in a scene without springs and joints.
 std::vector<Vec3> forces_on_bodies(const Scene& scene, BodyColumns before, BodyColumns after, double t, double dt);
 
+// m/s, in W: how fast b slides along a where they touch, by the velocities of this instant.
+Vec3 slip_of(const ReportedContact& contact, BodyColumns bodies);
+
 // Why a run has no contact forces to judge; empty if it has.
 std::string why_no_contacts(const JudgedRun& run);
 

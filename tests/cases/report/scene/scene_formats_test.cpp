@@ -98,6 +98,10 @@ BOOST_AUTO_TEST_CASE(what_a_format_cannot_say_is_named_and_bad_usage_refused) {
   BOOST_TEST(
       springs.err.find("left out: a spring between 'world' and 'cube': it: SDF has no springs") != std::string::npos,
       springs.err);
+  for (const char* format : {"sdf", "mjcf"}) {
+    const Answer sticks = run({"export", "forces-of-contact/brick-sticks", "--format", format});
+    BOOST_TEST(sticks.err.find("static friction") != std::string::npos, sticks.err);
+  }
   BOOST_TEST(run({"export", "springs/fixed-spring"}).code == 2);
   BOOST_TEST(run({"export", "springs/fixed-spring", "--format", "urdf"}).code == 2);
   BOOST_TEST(run({"export", "--format", "sdf"}).code == 2);
