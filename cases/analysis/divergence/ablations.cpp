@@ -110,12 +110,13 @@ class Ablater {
     if (std::min(before.gap, after.gap) > reach) return;
     const std::string pair = fmt::format("of '{}' and '{}'", scene_.body_name(a), scene_.body_name(b));
     add("the contact " + pair, contact_detail(before, after), kContact, a, b, with_law(a, b, kApart));
+    ContactLaw inelastic = law, smooth = law;
+    inelastic.restitution = 0, smooth.friction = smooth.static_friction = 0;
     if (law.restitution > 0)
       add("the restitution " + pair, fmt::format("restitution {:g}", law.restitution), kRestitution, a, b,
-          with_law(a, b, {0, law.friction, true}));
+          with_law(a, b, inelastic));
     if (law.friction > 0)
-      add("the friction " + pair, friction_detail(before, after), kFriction, a, b,
-          with_law(a, b, {law.restitution, 0, true}));
+      add("the friction " + pair, friction_detail(before, after), kFriction, a, b, with_law(a, b, smooth));
   }
 
   // A contact rests if its gap and its speed are what gravity makes in some steps. One that approaches faster begins.
