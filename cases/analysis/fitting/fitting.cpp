@@ -176,7 +176,7 @@ class Fitting {
     return has_profile() ? rough.front() : refined(rough, function);
   }
 
-  // From the best of these minima, and from others that are nearly as good: one of them may turn out the better.
+  // Searches on from the best of these minima, and from others nearly as good, of which one may turn out the better.
   static BoxMinimum refined(const std::vector<BoxMinimum>& rough,
                             const std::function<double(const BoxPoint&)>& function) {
     constexpr double kNearly = 0.05;  // of a usual trial's loss: ten times what a rough minimum is off by

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/metrics/measures/contact/touching.h"
 #include "core/dynamics/model/loads/loads.h"
 #include "core/scene/contact_laws.h"
 
@@ -35,11 +36,7 @@ std::vector<Vec3> forces_on_bodies(const Scene& scene, BodyColumns before, BodyC
 }
 
 Vec3 slip_of(const ReportedContact& contact, BodyColumns bodies) {
-  const auto velocity = [&](int body) {
-    const auto i = static_cast<std::size_t>(body);
-    return Vec3(bodies.velocity(i) + bodies.angular_velocity(i).cross(contact.point - bodies.position(i)));
-  };
-  const Vec3 u = velocity(contact.b) - velocity(contact.a);
+  const Vec3 u = velocity_at(bodies, contact.b, contact.point) - velocity_at(bodies, contact.a, contact.point);
   return u - contact.normal.dot(u) * contact.normal;
 }
 

@@ -1,7 +1,7 @@
 // Decides which of the touching points stay in contact, and which of them slide, for the method `event`. The forces
 // must satisfy the contact laws in accelerations, with the laws of an impact's velocities,
 //   0 <= u'_n ⊥ f_n >= 0,   |f_t| <= mu f_n, against u'_t where that is not zero; of a point that slides, against u_t.
-// A point that does not slide has its static friction. Where that does not hold it, it has `friction` from then on.
+// A point that does not slide has its static friction. If that does not hold it, it slides with `friction`.
 // If the points outnumber the degrees of freedom, this finds some forces within the cones if there are any.
 // PersistentForces with the same accelerations may have others.
 #pragma once
