@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "cases/results/result_json.h"
@@ -66,6 +67,25 @@ std::optional<TrialSpread> spread_over(const std::vector<TrialResult>& trials, c
   for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
   if (values.size() > 1) spread.standard_deviation = std::sqrt(squares / (count - 1));
   return spread;
+}
+
+std::optional<PairedDifference> paired_difference(const std::vector<TrialResult>& of,
+                                                  const std::vector<TrialResult>& than, const std::string& metric) {
+  std::vector<double> differences;
+  for (const TrialResult& one : of) {
+    const auto other =
+        std::find_if(than.begin(), than.end(), [&](const TrialResult& trial) { return trial.name == one.name; });
+    if (other == than.end() || !one.metrics.contains(metric) || !other->metrics.contains(metric)) continue;
+    differences.push_back(one.metrics.at(metric) - other->metrics.at(metric));
+  }
+  const auto count = static_cast<double>(differences.size());
+  if (count < 2) return {};
+  double mean = 0, squares = 0;
+  for (const double difference : differences) mean += difference / count;
+  for (const double difference : differences) squares += (difference - mean) * (difference - mean);
+  const double error = std::sqrt(squares / (count - 1) / count);
+  const double half = error * quantile(boost::math::students_t(count - 1), 0.975);
+  return PairedDifference{mean, mean - half, mean + half};
 }
 
 }  // namespace rigor

@@ -235,10 +235,11 @@ std::string answers_text(const Results& results, Detail detail) {
     if (const std::string other = not_the_same_robot(result.definition.losses); !other.empty())
       text += wrapped(fmt::format("{}: {}", result.definition.id, other), 2) + "\n";
   }
-  if (const auto first = recommendation(results))
-    text += wrapped(first->text + (first->more.empty() ? "" : " " + first->more), 2) + "\n";
+  const auto first = recommendation(results);
+  if (first) text += wrapped(first->text + (first->more.empty() ? "" : " " + first->more), 2) + "\n";
   if (results.cases.size() < 2) return text.empty() ? "" : text + "\n";
-  const std::vector<Finding> found = findings(results);
+  std::vector<Finding> found = findings(results);
+  std::erase_if(found, [&](const Finding& one) { return first && one.topic == first->topic; });
   const std::size_t shown = detail == Detail::full ? found.size() : std::min(found.size(), kMostInBrief);
   for (std::size_t i = 0; i < shown; ++i)
     text += "- " + wrapped(fmt::format("{}: {}", found[i].topic, found[i].text), 2) + "\n";

@@ -249,9 +249,10 @@ std::string markdown_report(const Results& results) {
     if (const std::string other = not_the_same_robot(result.definition.losses); !other.empty())
       text += fmt::format("**{}: {}**\n\n", plain(result.definition.id), plain(other));
   }
-  if (const auto first = recommendation(results))
-    text += fmt::format("**{}** {}\n\n", plain(first->text), plain(first->more));
+  const auto first = recommendation(results);
+  if (first) text += fmt::format("**{}** {}\n\n", plain(first->text), plain(first->more));
   for (const Finding& found : findings(results)) {
+    if (first && found.topic == first->topic) continue;
     text += fmt::format("- **{}:** {}\n", found.topic, plain(found.text));
     if (!found.more.empty()) text += fmt::format("  <br>{}\n", plain(found.more));
   }

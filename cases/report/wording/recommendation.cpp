@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cases/analysis/frontier.h"
+#include "cases/report/wording/findings/recorded_finding.h"
 
 namespace rigor {
 namespace {
@@ -15,7 +16,7 @@ class Recommending {
   explicit Recommending(const Results& results) : results_(results), all_(frontiers(results)) {}
 
   std::optional<Message> message() {
-    if (all_.empty()) return {};
+    if (all_.empty()) return recorded_finding(results_);
     const auto engine = within(Candidates::engines);
     const auto method = within(Candidates::core_methods), reference = within(Candidates::references);
     Message message{"recommendation", ""};

@@ -1,4 +1,4 @@
-// The first answer of each report: which engine and which step to take.
+// The first answer of each report: which engine and which step to take, or which comes nearest to a recording.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace rigor {
 
-// "For 1 mm take simbody at 1/30 s", and in `more` what else is within the tolerance. None where no error can be
-// compared.
+// "For 1 mm take simbody at 1/30 s", and in `more` what else is within the tolerance. Where nothing is
+// compared but recordings, the finding on these, with its topic. None where no error can be compared.
 std::optional<Message> recommendation(const Results& results);
 
 }  // namespace rigor

@@ -13,6 +13,7 @@
 #include "cases/report/wording/findings/headline_cells.h"
 #include "cases/report/wording/findings/impacts_finding.h"
 #include "cases/report/wording/findings/joints_finding.h"
+#include "cases/report/wording/findings/recorded_finding.h"
 #include "cases/report/wording/findings/stability_findings.h"
 #include "cases/report/wording/findings/step_finding.h"
 #include "cases/report/wording/run_names.h"
@@ -56,6 +57,7 @@ std::vector<Finding> findings(const Results& results) {
   const auto add = [&](std::optional<Finding> finding) {
     if (finding) all.push_back(std::move(*finding));
   };
+  add(recorded_finding(results));
   add(stiff_springs_finding(results, names, dt));
   add(step_finding(results, names));
   add(energy_finding(results, names, dt));

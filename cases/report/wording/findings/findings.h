@@ -1,4 +1,4 @@
-// The main findings over all cases: blow-ups, stiff springs, the step that a millimetre takes, energy, friction,
+// The main findings over all cases: how near a recording is met, blow-ups, stiff springs, the step that a millimetre takes, energy, friction,
 // impacts, joints, and errors that no scheme explains.
 #pragma once
 

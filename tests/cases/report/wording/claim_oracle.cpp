@@ -13,9 +13,11 @@
 
 #include "adapters/engines.h"
 #include "cases/analysis/joint_diagnosis.h"
+#include "cases/case/recording/recording.h"
 #include "cases/report/wording/comparison.h"
 #include "cases/report/wording/explanations/explanation.h"
 #include "cases/report/wording/findings/findings.h"
+#include "cases/results/trial_results.h"
 #include "core/engine/run_name.h"
 
 namespace rigor::test {
@@ -659,6 +661,26 @@ std::optional<double> of_motions(const Results& results, const Claim& claim) {
 }
 
 // Metrics of one cell, behind their prefixes.
+// By the t of the trials' number, which this table has for the numbers in tests.
+double end_of_difference(const Results& results, const Claim& claim, const Cell& cell, const std::string& name) {
+  static const std::map<std::size_t, double> kT = {{2, 12.7062}, {3, 4.30265}, {4, 3.18245}, {10, 2.26216}};
+  const CaseResult* one = case_of(results, claim.of_case);
+  for (const Cell& than : one->cells) {
+    if (claim.part != fmt::format("{} at {}", results.runs[than.run].text, than.dt.text)) continue;
+    const std::vector<TrialResult> a = trials_of(cell), b = trials_of(than);
+    const double n = static_cast<double>(a.size());
+    double sum = 0, squares = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const double d = a[k].metrics.at(name) - b[k].metrics.at(name);
+      sum += d, squares += d * d;
+    }
+    const double mean = sum / n, half = kT.at(a.size()) * std::sqrt((squares / n - mean * mean) / (n - 1));
+    const bool is_less = mean + half < 0, is_low = claim.quantity.starts_with("low");
+    return is_less ? -(mean + (is_low ? half : -half)) : mean + (is_low ? -half : half);
+  }
+  return kNone;
+}
+
 std::optional<double> of_cell(const Results& results, const Claim& claim) {
   const Cell* cell = cell_of(results, claim);
   if (!cell) return {};
@@ -668,6 +690,8 @@ std::optional<double> of_cell(const Results& results, const Claim& claim) {
     name.erase(0, prefix.size());
     return true;
   };
+  if (is("low end of the difference of ") || is("high end of the difference of "))
+    return end_of_difference(results, claim, *cell, name);
   if (is("signed ")) return value_in(cell->metrics, name, true);
   if (is("first second of ")) return metric(cell->metrics, name) ? metric(cell->metrics, name)->first_second : kNone;
   if (is("worst found of ")) return metric(cell->metrics, name) ? metric(cell->metrics, name)->worst.found : kNone;
@@ -761,6 +785,8 @@ std::optional<double> of_case(const Results& results, const Claim& claim) {
       if (dt.text == claim.dt) return scene.gravity.norm() / 2 * dt.seconds;
   }
   if (claim.quantity == "duration") return one->definition.duration;
+  if (claim.quantity == "trials")
+    return one->definition.recording ? static_cast<double>(one->definition.recording->trials.size()) : kNone;
   if (claim.quantity == "ensemble starts") return one->definition.ensemble;
   if (const auto distance = distance_of_runs(results, *one, claim)) return distance;
   if (claim.quantity == "joints in a row") return joints_in_a_row_of(scene);
@@ -932,12 +958,12 @@ std::vector<std::string> numbers_in(std::string text) {
   return numbers;
 }
 
-// SI value of "31 mm", "4.2 ms", "3.4 %", "0.5 N m s/rad".
-double printed_value(const std::string& printed) {
+// SI value of "31 mm", "4.2 ms", "3.4 %", "0.5 N m s/rad". Of a metric in percent, "3.4 %" is 3.4.
+double printed_value(const std::string& quantity, const std::string& printed) {
   std::size_t end = 0;
   const double number = std::stod(printed, &end);
   const std::string unit = printed.substr(std::min(printed.size(), end + 1));
-  if (unit == "%") return number / 100;
+  if (unit == "%") return unit_of_metric(quantity) == "%" ? number : number / 100;
   for (const char* base : {"m", "s", "rad"}) {
     for (const auto& [prefix, factor] : {std::pair("m", 1e-3), {"µ", 1e-6}, {"n", 1e-9}, {"p", 1e-12}})
       if (unit == std::string(prefix) + base) return number * factor;
@@ -972,7 +998,7 @@ std::vector<std::string> errors_of(const Results& results, const Message& messag
     if (claim.printed.empty()) continue;
     if (message.text.find(claim.printed) == std::string::npos && message.more.find(claim.printed) == std::string::npos)
       fail(claim, fmt::format("{} is not in the text", claim.printed));
-    if (!(std::abs(printed_value(claim.printed) - claim.value) <= kPrinted * std::abs(claim.value)))
+    if (!(std::abs(printed_value(claim.quantity, claim.printed) - claim.value) <= kPrinted * std::abs(claim.value)))
       fail(claim, fmt::format("{} is printed as {}", claim.value, claim.printed));
     for (const std::string& number : numbers_in(claim.printed)) printed.insert(number);
   }

@@ -108,12 +108,12 @@ export class CaseView {
     if (isComparable) this.chart.draw({ curves, tolerance, chosen: best ?? own, focus: null });
   }
 
-  // Of all runs the one with the smallest mean error.
+  // Of all runs the one with the smallest mean error. A mean that lacks trials may lack the hard ones.
   nearestToRecording() {
     const { main } = this.one,
-      compared = this.one.cells.filter(
-        (cell) => main.startsWith("mean_") && Number.isFinite(cell.metrics?.[main]?.value) && !isHeldToItself(cell, main),
-      );
+      hasAllTrials = (cell) => (cell.trials ?? []).every(({ metrics }) => isNumber(metrics[main])),
+      isCompared = (cell) => isNumber(cell.metrics?.[main]?.value) && !isHeldToItself(cell, main) && hasAllTrials(cell),
+      compared = main.startsWith("mean_") ? this.one.cells.filter(isCompared) : [];
     const best = compared.sort((a, b) => a.metrics[main].value - b.metrics[main].value)[0];
     if (!best) return "No error can be compared in this case";
     const error = quantity(best.metrics[main].value, this.results.units[main]);

@@ -16,6 +16,8 @@ const verdictFilters = [
   ["good", "all stable"],
 ];
 
+const isRun = (cell) => cell.status !== "unsupported";
+
 const select = (label, value, options, onchange) =>
   el(
     "label.control",
@@ -116,12 +118,13 @@ export class Overview {
     const counted = this.family ? cases.filter((c) => c.family === this.family).length : cases.length;
     const of = (choice) => `${choice.curve.engine} at ${choice.point.dt} s`;
     const best = cheapest(this.curves, tolerance, isExternal);
+    const recorded = this.results.findings.find((found) => found.topic === "recorded");
     const title = !this.hasCurves
-      ? this.withoutErrors()
+      ? (recorded?.text ?? this.withoutErrors())
       : best
         ? ["For ", el("b", {}, lengthOrAngle(tolerance)), " take ", el("b", {}, best.curve.engine), " at ", el("b", {}, `${best.point.dt} s`)]
         : `No engine stays within ${lengthOrAngle(tolerance)} at the steps tried`;
-    const beside = [];
+    const beside = this.hasCurves || !recorded ? [] : [recorded.more, this.failures()];
     if (best) {
       const { cases: compared, failed } = best.point,
         { unsupported } = best.curve;
@@ -150,12 +153,15 @@ export class Overview {
     ];
   }
 
-  // Where no error can be compared: how many runs failed.
   withoutErrors() {
-    const ran = this.results.cells.filter((cell) => cell.status !== "unsupported"),
+    return this.results.cells.some(isRun) ? `No error can be compared here; ${this.failures()}` : "Nothing ran here";
+  }
+
+  // "4 of 18 runs failed."
+  failures() {
+    const ran = this.results.cells.filter(isRun),
       failed = ran.filter((cell) => judgement(cell).kind === "bad").length;
-    if (!ran.length) return "Nothing ran here";
-    return failed === ran.length ? `Every run failed: ${failed} of ${failed}` : `No error can be compared here; ${failed} of ${ran.length} runs failed`;
+    return `${failed} of ${ran.length} runs failed.`;
   }
 
   // The cheapest step within the tolerance of each other engine, cheapest first.

@@ -8,6 +8,7 @@ const shownAtFirst = 6;
 const mostBars = 6;
 
 const headlines = {
+  recorded: "How near each engine comes to the recording",
   "stiff springs": "Stiff springs: who stays bounded",
   "step size": "The largest step within 1 mm",
   energy: "Energy that is lost or gained",
