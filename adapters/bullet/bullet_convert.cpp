@@ -1,5 +1,6 @@
 #include "adapters/bullet/bullet_convert.h"
 
+#include "adapters/bullet/bullet_surface.h"
 #include "core/base/eigen_of.h"
 
 namespace rigor::bullet {
@@ -43,6 +44,11 @@ struct MakeShape {
   }
   // Bullet has none: no feature of its contacts names it.
   std::unique_ptr<btCollisionShape> operator()(const Ellipsoid&) const { return std::make_unique<btEmptyShape>(); }
+  // Bullet has height fields of its own; here both are the triangles of the scene. A matched surface has no margin, and
+  // its inner edges are known.
+  std::unique_ptr<btCollisionShape> operator()(const SurfaceShape& on) const {
+    return std::make_unique<SurfaceOfTriangles>(*on.surface, !has_margins);
+  }
   std::unique_ptr<btCollisionShape> operator()(const Plane& p) const {
     return std::make_unique<btStaticPlaneShape>(to_bullet(p.normal), p.offset);
   }

@@ -20,7 +20,9 @@ namespace rigor {
 namespace {
 
 // Bullet has no ellipsoid.
-const Features kBulletContacts = contacts_among<Box, Capsule, Convex, Cylinder, Plane, Sphere>();
+const Features kBulletContacts = joined(contacts_among<Box, Capsule, Convex, Cylinder, Plane, Sphere>(),
+                                        joined(contacts_on<Heightfield, Box, Capsule, Convex, Sphere>(),
+                                               contacts_on<Mesh, Box, Capsule, Convex, Sphere>()));
 
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }

@@ -61,6 +61,7 @@ void LinkShapes::add_fixed(btMultiBodyDynamicsWorld& world, const Body& body, in
     start.m_startWorldTransform = btTransform(to_bullet(body.orientation), to_bullet(body.position));
   fixed_.push_back(std::make_unique<btRigidBody>(start));
   follow_laws(*fixed_.back(), laws_, index);
+  if (!has_margins && surface_in(*body.shape)) adjust_contacts(*fixed_.back());
   world.addRigidBody(fixed_.back().get(), btBroadphaseProxy::DefaultFilter, kTouchesAll);
 }
 

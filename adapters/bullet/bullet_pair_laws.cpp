@@ -1,6 +1,8 @@
 #include "adapters/bullet/bullet_pair_laws.h"
 
+#include <BulletCollision/CollisionDispatch/btInternalEdgeUtility.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btTriangleShape.h>
 
 #include <algorithm>
 
@@ -40,6 +42,17 @@ bool soften(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int,
   return true;
 }
 
+// On a surface the second object is a triangle of it, but Bullet may pass the two in either order.
+bool adjust(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,
+            const btCollisionObjectWrapper* b, int part_b, int index_b) {
+  const auto is_triangle = [](const btCollisionObjectWrapper* object) {
+    return object->getCollisionShape()->getShapeType() == TRIANGLE_SHAPE_PROXYTYPE;
+  };
+  if (is_triangle(a)) btAdjustInternalEdgeContacts(point, a, b, part_a, index_a);
+  if (is_triangle(b)) btAdjustInternalEdgeContacts(point, b, a, part_b, index_b);
+  return soften(point, a, part_a, index_a, b, part_b, index_b);
+}
+
 }  // namespace
 
 void install_pair_laws() {
@@ -48,7 +61,7 @@ void install_pair_laws() {
     bullets_restitution = gCalculateCombinedRestitutionCallback;
     gCalculateCombinedFrictionCallback = friction_of;
     gCalculateCombinedRestitutionCallback = restitution_of;
-    gContactAddedCallback = soften;
+    gContactAddedCallback = adjust;
     return true;
   }();
   static_cast<void>(installed);
@@ -59,7 +72,7 @@ void follow_laws(btCollisionObject& object, const ContactLaws& laws, int index) 
   object.setUserIndex(index);
 }
 
-void follow_soft_laws(btCollisionObject& object) {
+void adjust_contacts(btCollisionObject& object) {
   object.setCollisionFlags(object.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
 }
 

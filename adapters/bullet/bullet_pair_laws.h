@@ -15,7 +15,8 @@ void install_pair_laws();
 // The object's contacts follow the laws from now on; the laws must outlive the object.
 void follow_laws(btCollisionObject& object, const ContactLaws& laws, int index);
 
-// Also stiffness and damping, which costs a call for each new contact point.
-void follow_soft_laws(btCollisionObject& object);
+// Also stiffness and damping, and the edges between triangles of a surface that has them
+// (bullet_surface.h). This costs a call for each new contact point.
+void adjust_contacts(btCollisionObject& object);
 
 }  // namespace rigor::bullet

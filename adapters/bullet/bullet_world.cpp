@@ -34,7 +34,8 @@ std::string gyroscopic_mode(const btRigidBody& body) {
 // m, of the largest ball inside about the body's centre; 0 where that centre may lie outside.
 double inner_radius(const Shape& shape) {
   return std::visit(ForShapes{[](const Compound&) { return 0.0; }, [](const Convex&) { return 0.0; },
-                              [](const Plane&) { return 0.0; }, [](const auto& centred) { return centred.inradius(); }},
+                              [](const Plane&) { return 0.0; }, [](const SurfaceShape&) { return 0.0; },
+                              [](const auto& centred) { return centred.inradius(); }},
                     shape);
 }
 
@@ -140,7 +141,7 @@ void BulletWorld::add_body(const Body& body, const Settings& settings) {
   }
   row.body = std::make_unique<btRigidBody>(start);
   bullet::follow_laws(*row.body, laws_, static_cast<int>(rows_.size()) - 1);
-  if (is_soft_) bullet::follow_soft_laws(*row.body);
+  if (is_soft_ || (matched_ && body.shape && surface_in(*body.shape))) bullet::adjust_contacts(*row.body);
   if (row.moves) {
     row.body->setLinearVelocity(to_bullet(body.velocity));
     row.body->setAngularVelocity(to_bullet(body.angular_velocity));

@@ -104,6 +104,7 @@ struct MakeShape {
   dyn::ShapePtr operator()(const Convex&) const { return nullptr; }
   dyn::ShapePtr operator()(const Cylinder&) const { return nullptr; }
   dyn::ShapePtr operator()(const Ellipsoid&) const { return nullptr; }
+  dyn::ShapePtr operator()(const SurfaceShape&) const { return nullptr; }
   dyn::ShapePtr operator()(const Compound&) const { return nullptr; }  // its parts are made
 };
 

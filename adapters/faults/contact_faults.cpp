@@ -27,7 +27,7 @@ void grow_shape(Shape& shape, double by) {
                 [=](Convex& convex) { convex.hull = scaled_hull(*convex.hull, 1 + by / convex.hull->inradius); },
                 [=](Cylinder& cylinder) { cylinder.radius += by, cylinder.length += 2 * by; },
                 [=](Ellipsoid& ellipsoid) { ellipsoid.radii += Vec3::Constant(by); }, [](Plane&) {},
-                [=](Sphere& sphere) { sphere.radius += by; }},
+                [](SurfaceShape&) {}, [=](Sphere& sphere) { sphere.radius += by; }},
       shape);
 }
 

@@ -63,6 +63,7 @@ struct GeomOf {
   std::string operator()(const Ellipsoid& e) const {
     return fmt::format(R"(type="ellipsoid" size="{}")", text_of(e.radii));
   }
+  std::string operator()(const SurfaceShape&) const { return ""; }  // no feature names it
   std::string operator()(const Plane& p) const {
     return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", text_of(p.normal * p.offset),
                        text_of(p.normal));

@@ -8,7 +8,7 @@
 namespace rigor {
 namespace {
 
-constexpr int kMaxContacts = 16;       // of one pair; two boxes have at most eight
+constexpr int kMaxContacts = 64;       // of one pair; two boxes have at most eight, triangles any number
 constexpr double kSlowest = 1e-9;      // m/s: below it a sliding velocity is rounding and has no direction
 constexpr double kRollingSlip = 1e-6;  // m/s: far above what the solver leaves of the slip of a body that rolls
 

@@ -19,9 +19,11 @@ namespace {
 
 // ODE reports all contacts of a hull with a plane or a ball. A hull on a box or on another hull gets one corner at a
 // time, so these pairs are left out. A cylinder on a box keeps moving by quickstep, so that pair is left out too.
-const Features kOdeContacts = joined(contacts_among<Box, Capsule, Plane, Sphere>(),
-                                     {contact_feature<Convex, Plane>(), contact_feature<Convex, Sphere>(),
-                                      contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>()});
+const Features kOdeContacts =
+    joined(joined(contacts_among<Box, Capsule, Plane, Sphere>(),
+                  {contact_feature<Convex, Plane>(), contact_feature<Convex, Sphere>(),
+                   contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>()}),
+           joined(contacts_on<Heightfield, Box, Capsule, Sphere>(), contacts_on<Mesh, Box, Capsule, Sphere>()));
 
 std::vector<OptionInfo> options_of_both() { return {kOdeGyroscopic, kOdeRotation, kOdeErp, kOdeCfm}; }
 

@@ -41,12 +41,17 @@ dMass mass_of(const Body& body) {
 // a plane by n · x = d with the solid behind it.
 struct MakeGeom {
   dSpaceID space;
-  std::vector<std::unique_ptr<OdeHull>>& hulls;
+  OdePolyhedra& polyhedra;
 
   dGeomID operator()(const Compound&) const { return nullptr; }  // its parts are made
   dGeomID operator()(const Convex& c) const {
-    hulls.push_back(std::make_unique<OdeHull>(*c.hull));
-    return hulls.back()->add_to(space);
+    polyhedra.hulls.push_back(std::make_unique<OdeHull>(*c.hull));
+    return polyhedra.hulls.back()->add_to(space);
+  }
+  // ODE has height fields of its own, whose cells it divides in its own way; here both are the triangles of the scene.
+  dGeomID operator()(const SurfaceShape& on) const {
+    polyhedra.surfaces.push_back(std::make_unique<OdeTriangles>(*on.surface));
+    return polyhedra.surfaces.back()->add_to(space);
   }
   dGeomID operator()(const Cylinder& c) const { return dCreateCylinder(space, c.radius, c.length); }
   dGeomID operator()(const Ellipsoid&) const { return nullptr; }  // ODE has none: no feature of its contacts names it
@@ -149,7 +154,7 @@ void OdeWorld::add_geometry(const Body& body, dBodyID moving) {
 }
 
 void OdeWorld::add_part(const Body& body, const Shape& shape, const BodyPose& pose, dBodyID moving) {
-  const dGeomID geom = std::visit(MakeGeom{moving ? moving_ : fixed_, hulls_}, shape);
+  const dGeomID geom = std::visit(MakeGeom{moving ? moving_ : fixed_, polyhedra_}, shape);
   if (!geom) return;
   const auto index = static_cast<std::intptr_t>(bodies_.size()) - 1;
   dGeomSetData(geom, reinterpret_cast<void*>(index));

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "adapters/common/external_loads.h"
-#include "adapters/ode/ode_hull.h"
 #include "adapters/ode/ode_joints.h"
+#include "adapters/ode/ode_polyhedra.h"
 #include "core/engine/clock.h"
 #include "core/engine/saved_bytes.h"
 #include "core/scene/contact_laws.h"
@@ -77,10 +77,10 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts, 
   unsigned long random_seed_ = 0;  // ODE's own at its start
 
   dWorldID world_;
-  std::vector<std::unique_ptr<OdeHull>> hulls_;  // ODE keeps pointers into them
-  dSpaceID moving_, fixed_;                      // two spaces: fixed shapes are never tried against each other
-  std::vector<dGeomID> geoms_;                   // in `moving_`, as they were made
-  dJointGroupID contacts_;                       // lives for one step
+  OdePolyhedra polyhedra_;
+  dSpaceID moving_, fixed_;     // two spaces: fixed shapes are never tried against each other
+  std::vector<dGeomID> geoms_;  // in `moving_`, as they were made
+  dJointGroupID contacts_;      // lives for one step
   struct Reported {
     ReportedContact contact;  // without its force
     bool a_moves, b_moves;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cases/truth/flat_ground.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/base/near_match.h"
@@ -101,8 +102,10 @@ std::unique_ptr<Truth> make_truth(const std::string& kind, const Scene& scene, d
   if (kind == "none") return nullptr;
   std::vector<std::string> names = {"none"};
   for (const TruthRow& row : truths()) {
-    if (row.name == kind)
-      return refuse_pairs_apart(kind, scene), refuse_other_laws(kind, scene), row.make(scene, duration);
+    if (row.name == kind) {
+      refuse_pairs_apart(kind, scene), refuse_other_laws(kind, scene);
+      return truth_over_ground(scene, row.make(on_planes(scene), duration), duration);
+    }
     names.push_back(row.name);
   }
   throw InputError(

@@ -17,8 +17,8 @@ ShapeInfo row_of_shape() {
     else
       value = 0;
   });
-  const bool is_solid = !std::is_same_v<Type, Plane> && !std::is_same_v<Type, Compound>;
-  return {descriptor.word, descriptor.meaning, std::move(keys), is_solid, prototype};
+  const bool is_solid = !kStandsStill<Type> && !std::is_same_v<Type, Compound>;
+  return {descriptor.word, descriptor.meaning, std::move(keys), kStandsStill<Type>, is_solid, prototype};
 }
 
 template <typename... Types>
@@ -34,6 +34,21 @@ const std::vector<ShapeInfo>& shape_types() {
 }
 
 std::string shape_name(const Shape& shape) { return shape_types()[shape.index()].word; }
+
+bool stands_still(const Shape& shape) {
+  return std::visit([](const auto& it) { return kStandsStill<std::decay_t<decltype(it)>>; }, shape);
+}
+
+const SurfaceShape* surface_in(const Shape& shape) {
+  return std::visit(
+      [](const auto& it) -> const SurfaceShape* {
+        if constexpr (std::is_base_of_v<SurfaceShape, std::decay_t<decltype(it)>>)
+          return &it;
+        else
+          return nullptr;
+      },
+      shape);
+}
 
 double volume_of(const Shape& shape) {
   return std::visit([](const auto& it) { return it.volume(); }, shape);
@@ -63,6 +78,13 @@ Shape scaled_shape(const Shape& shape, double factor) {
     if (quantity != ShapeQuantity::direction) value *= factor;
   });
   if (auto* convex = std::get_if<Convex>(&out)) convex->hull = scaled_hull(*convex->hull, factor);
+  if (auto* mesh = std::get_if<Mesh>(&out)) mesh->surface = scaled_surface(*mesh->surface, factor);
+  if (auto* field = std::get_if<Heightfield>(&out)) {
+    field->surface = scaled_surface(*field->surface, factor);
+    for (double& length : field->size) length *= factor;
+    for (std::vector<double>& row : field->heights)
+      for (double& height : row) height *= factor;
+  }
   if (auto* compound = std::get_if<Compound>(&out)) {
     for (PlacedShape& part : compound->parts)
       part.shape = scaled_shape(part.shape, factor), part.pose.position *= factor;

@@ -13,12 +13,18 @@
 #include "core/scene/shapes/convex.h"
 #include "core/scene/shapes/cylinder.h"
 #include "core/scene/shapes/ellipsoid.h"
+#include "core/scene/shapes/heightfield.h"
+#include "core/scene/shapes/mesh.h"
 #include "core/scene/shapes/plane.h"
 #include "core/scene/shapes/sphere.h"
 
 namespace rigor {
 
-using Shape = std::variant<Box, Capsule, Compound, Convex, Cylinder, Ellipsoid, Plane, Sphere>;
+using Shape = std::variant<Box, Capsule, Compound, Convex, Cylinder, Ellipsoid, Heightfield, Mesh, Plane, Sphere>;
+
+// Shapes of bodies that are fixed and have no other shape.
+template <typename Type>
+inline constexpr bool kStandsStill = std::is_same_v<Type, Plane> || std::is_base_of_v<SurfaceShape, Type>;
 
 struct PlacedShape {
   Shape shape;
@@ -29,7 +35,8 @@ struct PlacedShape {
 struct ShapeInfo {
   std::string word, meaning;
   std::vector<std::string> keys;  // of its fields
-  bool is_solid;                  // neither a plane nor a compound
+  bool stands_still;              // planes and surfaces: their bodies are fixed, and have no other shape
+  bool is_solid;                  // neither that nor a compound
   Shape prototype;                // its fields have no meaning
 };
 const std::vector<ShapeInfo>& shape_types();
@@ -46,6 +53,9 @@ template <typename Visitor>
 void for_each_field(const Shape& shape, const Visitor& visitor) {
   std::visit([&](const auto& it) { ShapeDescriptor<std::decay_t<decltype(it)>>::visit(it, visitor); }, shape);
 }
+
+bool stands_still(const Shape& shape);
+const SurfaceShape* surface_in(const Shape& shape);  // null for another shape
 
 // Calls visitor(shape, pose in B) for the shape, or for each part of a compound.
 template <typename Visitor>

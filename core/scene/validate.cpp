@@ -36,6 +36,8 @@ Fault fault_of_shape(const Shape& shape) {
   });
   if (const auto* convex = std::get_if<Convex>(&shape); convex && !convex->hull)
     return SceneFault{"shape", "a convex shape has no hull"};
+  if (const SurfaceShape* on = surface_in(shape); on && !on->surface)
+    return SceneFault{"shape", fmt::format("a {} has no triangles", shape_name(shape))};
   if (fault || !std::holds_alternative<Compound>(shape)) return fault;
   const std::vector<PlacedShape>& parts = std::get<Compound>(shape).parts;
   if (parts.empty()) return SceneFault{"shapes", "found none; allowed: at least one shape"};
@@ -136,8 +138,9 @@ Fault fault_of(const Body& body) {
   if (body.shape) {
     if (Fault shape = fault_of_shape(*body.shape)) return shape;
   }
-  if (is_plane && !body.fixed)
-    return SceneFault{"fixed", "found false, but a plane never moves; allowed: true, or no such key"};
+  if (body.shape && stands_still(*body.shape) && !body.fixed)
+    return SceneFault{"fixed", fmt::format("found false, but a {} never moves; allowed: true, or no such key",
+                                           shape_name(*body.shape))};
   if (is_plane && !body.position.isZero(0))
     return SceneFault{"position", "a plane lies where its normal and offset say, not at a position"};
   if (body.collides && !body.shape)

@@ -128,12 +128,22 @@ double over_plane(const Plane& plane, const Shape& shape, const BodyPose& pose) 
 
 Pose matrix_pose(const BodyPose& pose) { return {pose.position, matrix_of(pose.orientation)}; }
 
+// Of the nearest points of both; a surface is not convex.
+double gap_on_surface(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
+  Manifold points;
+  collide(a, matrix_pose(pose_a), b, matrix_pose(pose_b), points);
+  double least = kInfinity;
+  for (const ManifoldPoint& point : points) least = std::min(least, point.gap);
+  return least;
+}
+
 // Neither shape is a compound.
 double gap_of_parts(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
   const auto *plane_a = std::get_if<Plane>(&a), *plane_b = std::get_if<Plane>(&b);
   if (plane_a && plane_b) return kInfinity;  // neither moves
   if (plane_a) return over_plane(*plane_a, b, pose_b);
   if (plane_b) return over_plane(*plane_b, a, pose_a);
+  if (surface_in(a) || surface_in(b)) return gap_on_surface(a, pose_a, b, pose_b);
   if (is_rod_or_box(a) && is_rod_or_box(b)) return gap_of_rods_and_boxes(a, pose_a, b, pose_b);
   return convex_distance(a, matrix_pose(pose_a), b, matrix_pose(pose_b)).gap;
 }

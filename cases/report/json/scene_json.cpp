@@ -7,7 +7,7 @@ namespace {
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-// The shape as the page draws it: a compound as its parts, and a hull with the triangles of its surface.
+// The shape as the page draws it: a compound as its parts, and a hull, mesh or height field with its triangles.
 Json drawn_shape_json(const Shape& shape) {
   if (const auto* compound = std::get_if<Compound>(&shape)) {
     Json json = {{"type", "compound"}, {"parts", parse_json(shape_json(shape))}};
@@ -22,6 +22,12 @@ Json drawn_shape_json(const Shape& shape) {
       for (std::size_t k = 1; k + 1 < face.corners.size(); ++k)
         json["triangles"].push_back({face.corners[0], face.corners[k], face.corners[k + 1]});
     }
+  }
+  if (const SurfaceShape* on = surface_in(shape)) {
+    json.erase("heights"), json["points"] = Json::array(), json["triangles"] = Json::array();
+    for (const Vec3& point : on->surface->points) json["points"].push_back(list(point));
+    for (const TriangleSurface::Triangle& triangle : on->surface->triangles)
+      json["triangles"].push_back(triangle.corners);
   }
   return json;
 }
@@ -41,12 +47,9 @@ Json drawn_body_json(const Body& body, Json row) {
 Json json_of(const Scene& scene) {
   const Json written = parse_json(scene_json(scene));
   const auto rows = [&](const char* key) { return written.value(key, Json::array()); };
-  Json json = {{"gravity", written.at("gravity")},
-               {"bodies", Json::array()},
-               {"springs", rows("spring")},
-               {"joints", rows("joint")},
-               {"forces", rows("force")},
-               {"contact_default", written.at("contact_default")},
+  Json json = {{"gravity", written.at("gravity")}, {"bodies", Json::array()},
+               {"springs", rows("spring")},        {"joints", rows("joint")},
+               {"forces", rows("force")},          {"contact_default", written.at("contact_default")},
                {"contacts", rows("contact")}};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     json["bodies"].push_back(drawn_body_json(scene.bodies[i], written.at("body")[i]));

@@ -159,6 +159,7 @@ struct ShapeNodes {
     at = {};
   }
   void operator()(const Convex& convex) { add_own(convex.drawn()); }
+  void operator()(const SurfaceShape& on) { add_own(on.drawn()); }
   void operator()(const Cylinder& cylinder) { add_own(cylinder.drawn()); }
   void operator()(const Ellipsoid& ellipsoid) { add(kBall, 2 * ellipsoid.radii); }
   void add_own(const TriangleMesh& mesh) { add_node(file.add_mesh(mesh, material), Vec3::Ones(), {}); }

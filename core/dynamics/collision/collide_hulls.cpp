@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/dynamics/collision/placed_hull.h"
 #include "core/dynamics/collision/side_by_side.h"
 
 namespace rigor {
@@ -22,46 +23,6 @@ constexpr double kHullOutside = 1e-6;  // of the inradius: a face is clipped so 
 constexpr int kMostOfFace = 16;        // points of one face contact
 constexpr double kFarAway = std::numeric_limits<double>::infinity();
 
-const Hull& unit_cube_hull() {
-  static const std::shared_ptr<const Hull> cube = [] {
-    std::vector<Vec3> corners;
-    for (int k = 0; k < 8; ++k) corners.emplace_back(k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5);
-    return hull_of(corners);
-  }();
-  return *cube;
-}
-
-// A hull in W. The vectors keep their memory from one call to the next.
-struct Placed {
-  const Hull* hull = nullptr;
-  double inradius = 0;  // m
-  Vec3 centre;          // m
-  std::vector<Vec3> points, normals;
-  std::vector<double> offsets;
-  std::vector<int> deepest;  // by face: the other's point that lies deepest behind it
-
-  void place(const Convex& convex, const Pose& pose) { place(*convex.hull, Vec3::Ones(), convex.hull->inradius, pose); }
-  void place(const Box& box, const Pose& pose) { place(unit_cube_hull(), box.size, box.inradius(), pose); }
-
-  Vec3 edge(const Hull::Edge& of) const { return points[index(of.to)] - points[index(of.from)]; }
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
- private:
-  // Only a cube is stretched; that leaves its normals as they are.
-  void place(const Hull& of, const Vec3& stretch, double its_inradius, const Pose& pose) {
-    hull = &of, inradius = its_inradius;
-    centre = pose.p + pose.R * of.centre;
-    points.resize(of.points.size()), normals.resize(of.faces.size()), offsets.resize(of.faces.size());
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = pose.p + pose.R * of.points[i].cwiseProduct(stretch);
-    for (std::size_t f = 0; f < normals.size(); ++f) {
-      const Hull::Face& face = of.faces[f];
-      normals[f] = pose.R * face.normal;
-      const double offset = stretch == Vec3::Ones() ? face.offset : face.normal.cwiseAbs().dot(0.5 * stretch);
-      offsets[f] = offset + normals[f].dot(pose.p);
-    }
-  }
-};
-
 struct HullAxis {
   double separation = -kFarAway;
   Vec3 n = Vec3::Zero();  // unit, in W, from a to b
@@ -69,7 +30,7 @@ struct HullAxis {
 };
 
 // Over the faces of `of`; n points out of it.
-HullAxis best_face_of(Placed& of, const Placed& other) {
+HullAxis best_face_of(PlacedHull& of, const PlacedHull& other) {
   HullAxis best;
   of.deepest.resize(of.normals.size());
   for (std::size_t f = 0; f < of.normals.size(); ++f) {
@@ -85,44 +46,44 @@ HullAxis best_face_of(Placed& of, const Placed& other) {
 }
 
 // The edges that can give an axis of more separation than `found`.
-void edges_worth_a_look(const Placed& of, const Placed& other, double found, std::vector<int>& out) {
+void edges_worth_a_look(const PlacedHull& of, const PlacedHull& other, double found, std::vector<int>& out) {
   out.clear();
   const double deep = std::min(found, 0.0);
   for (std::size_t e = 0; e < of.hull->edges.size(); ++e) {
     const Hull::Edge& edge = of.hull->edges[e];
-    const std::size_t left = Placed::index(edge.left), right = Placed::index(edge.right);
+    const std::size_t left = PlacedHull::index(edge.left), right = PlacedHull::index(edge.right);
     const auto is_behind = [&](int point) {
-      const Vec3& p = other.points[Placed::index(point)];
+      const Vec3& p = other.points[PlacedHull::index(point)];
       return of.normals[left].dot(p) - of.offsets[left] < deep && of.normals[right].dot(p) - of.offsets[right] < deep;
     };
     if (!is_behind(of.deepest[left]) && !is_behind(of.deepest[right])) out.push_back(static_cast<int>(e));
   }
 }
 
-HullAxis best_edges_of(const Placed& a, const Placed& b, double found) {
+HullAxis best_edges_of(const PlacedHull& a, const PlacedHull& b, double found) {
   constexpr double kParallel = 1e-6;  // the sine squared
   static thread_local std::vector<int> edges_a, edges_b;
   edges_worth_a_look(a, b, found, edges_a);
   edges_worth_a_look(b, a, found, edges_b);
   HullAxis best;
   for (const int i : edges_a) {
-    const Hull::Edge& of_a = a.hull->edges[Placed::index(i)];
+    const Hull::Edge& of_a = a.hull->edges[PlacedHull::index(i)];
     const Vec3 u = a.edge(of_a);
-    const Vec3 &left_a = a.normals[Placed::index(of_a.left)], &right_a = a.normals[Placed::index(of_a.right)];
+    const Vec3 &left_a = a.normals[PlacedHull::index(of_a.left)], &right_a = a.normals[PlacedHull::index(of_a.right)];
     for (const int k : edges_b) {
-      const Hull::Edge& of_b = b.hull->edges[Placed::index(k)];
+      const Hull::Edge& of_b = b.hull->edges[PlacedHull::index(k)];
       const Vec3 v = b.edge(of_b);
-      const double left_b = -b.normals[Placed::index(of_b.left)].dot(u),
-                   right_b = -b.normals[Placed::index(of_b.right)].dot(u);
+      const double left_b = -b.normals[PlacedHull::index(of_b.left)].dot(u),
+                   right_b = -b.normals[PlacedHull::index(of_b.right)].dot(u);
       if (!(left_b * right_b < 0)) continue;
       const double along_left = left_a.dot(v), along_right = right_a.dot(v);
       if (!(along_left * along_right < 0 && left_b * along_right > 0)) continue;
       Vec3 n = u.cross(v);
       const double square = n.squaredNorm();
       if (square < kParallel * u.squaredNorm() * v.squaredNorm()) continue;
-      const Vec3& at = a.points[Placed::index(of_a.from)];
+      const Vec3& at = a.points[PlacedHull::index(of_a.from)];
       n /= (n.dot(at - a.centre) < 0 ? -1 : 1) * std::sqrt(square);
-      const double separation = n.dot(b.points[Placed::index(of_b.from)] - at);
+      const double separation = n.dot(b.points[PlacedHull::index(of_b.from)] - at);
       if (separation > best.separation) best = {separation, n, i, k};
     }
   }
@@ -153,7 +114,7 @@ void clip(const HullPolygon& polygon, const Vec3& n, double offset, std::uint32_
 }
 
 // The face of `of` that looks most against n.
-std::size_t facing_of(const Placed& of, const Vec3& n) {
+std::size_t facing_of(const PlacedHull& of, const Vec3& n) {
   std::size_t best = 0;
   double least = kFarAway;
   for (std::size_t f = 0; f < of.normals.size(); ++f) {
@@ -163,16 +124,16 @@ std::size_t facing_of(const Placed& of, const Vec3& n) {
 }
 
 // The corners of the incident face over the reference face, which looks along `axis.n`.
-const HullPolygon& clipped_face(const Placed& reference, const Placed& incident, const HullAxis& axis) {
+const HullPolygon& clipped_face(const PlacedHull& reference, const PlacedHull& incident, const HullAxis& axis) {
   static thread_local HullPolygon polygon, clipped;
   const Hull::Face& face = incident.hull->faces[facing_of(incident, axis.n)];
   polygon.clear();
   for (const int corner : face.corners)
-    polygon.push_back({incident.points[Placed::index(corner)], static_cast<std::uint32_t>(corner)});
-  const Hull::Face& sides = reference.hull->faces[Placed::index(axis.a)];
+    polygon.push_back({incident.points[PlacedHull::index(corner)], static_cast<std::uint32_t>(corner)});
+  const Hull::Face& sides = reference.hull->faces[PlacedHull::index(axis.a)];
   for (std::size_t k = 0; k < sides.corners.size() && !polygon.empty(); ++k) {
-    const Vec3 &from = reference.points[Placed::index(sides.corners[k])],
-               &to = reference.points[Placed::index(sides.corners[(k + 1) % sides.corners.size()])];
+    const Vec3 &from = reference.points[PlacedHull::index(sides.corners[k])],
+               &to = reference.points[PlacedHull::index(sides.corners[(k + 1) % sides.corners.size()])];
     const Vec3 side = (to - from).cross(axis.n).normalized();
     clip(polygon, side, side.dot(from) + kHullOutside * reference.inradius, static_cast<std::uint32_t>(k), clipped);
     polygon.swap(clipped);
@@ -181,9 +142,9 @@ const HullPolygon& clipped_face(const Placed& reference, const Placed& incident,
 }
 
 // `normal` from b to a.
-void add_corners(const HullPolygon& polygon, const Placed& reference, const HullAxis& axis, const Vec3& normal,
+void add_corners(const HullPolygon& polygon, const PlacedHull& reference, const HullAxis& axis, const Vec3& normal,
                  std::uint32_t tag, Manifold& out) {
-  const double level = reference.offsets[Placed::index(axis.a)];
+  const double level = reference.offsets[PlacedHull::index(axis.a)];
   const std::size_t step = (polygon.size() + kMostOfFace - 1) / kMostOfFace;
   for (std::size_t i = 0; i < polygon.size(); i += step) {
     const double gap = axis.n.dot(polygon[i].p) - level;
@@ -191,23 +152,23 @@ void add_corners(const HullPolygon& polygon, const Placed& reference, const Hull
   }
 }
 
-void add_face(const Placed& reference, const Placed& incident, const HullAxis& axis, const Vec3& normal,
+void add_face(const PlacedHull& reference, const PlacedHull& incident, const HullAxis& axis, const Vec3& normal,
               std::uint32_t tag, Manifold& out) {
   const HullPolygon& polygon = clipped_face(reference, incident, axis);
-  const double level = reference.offsets[Placed::index(axis.a)];
+  const double level = reference.offsets[PlacedHull::index(axis.a)];
   double least = kFarAway;
   for (const HullCorner& corner : polygon) least = std::min(least, axis.n.dot(corner.p) - level);
   if (!polygon.empty() && (axis.separation <= 0 || least <= axis.separation + kHullOutside * reference.inradius))
     return add_corners(polygon, reference, axis, normal, tag, out);
   // Apart, and the deepest corner lies past the other's face: that corner stands for the pair.
-  const Vec3& corner = incident.points[Placed::index(reference.deepest[Placed::index(axis.a)])];
+  const Vec3& corner = incident.points[PlacedHull::index(reference.deepest[PlacedHull::index(axis.a)])];
   out.add(normal, corner - 0.5 * axis.separation * axis.n, axis.separation, tag);
 }
 
-ManifoldPoint edge_crossing(const Placed& a, const Placed& b, const HullAxis& axis) {
-  const Hull::Edge &of_a = a.hull->edges[Placed::index(axis.a)], &of_b = b.hull->edges[Placed::index(axis.b)];
+ManifoldPoint edge_crossing(const PlacedHull& a, const PlacedHull& b, const HullAxis& axis) {
+  const Hull::Edge &of_a = a.hull->edges[PlacedHull::index(axis.a)], &of_b = b.hull->edges[PlacedHull::index(axis.b)];
   const Vec3 u = a.edge(of_a), v = b.edge(of_b);
-  const Vec3 &from_a = a.points[Placed::index(of_a.from)], &from_b = b.points[Placed::index(of_b.from)];
+  const Vec3 &from_a = a.points[PlacedHull::index(of_a.from)], &from_b = b.points[PlacedHull::index(of_b.from)];
   const Vec3 line = from_b - from_a;
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), both = uu * vv - uv * uv;
   const double s = std::clamp((vv * u.dot(line) - uv * v.dot(line)) / both, 0.0, 1.0),
@@ -218,7 +179,7 @@ ManifoldPoint edge_crossing(const Placed& a, const Placed& b, const HullAxis& ax
   return {-axis.n, point, axis.separation, feature, 0, 0};
 }
 
-bool add_nearly_flat(const Placed& reference, const Placed& incident, const HullAxis& face, const Vec3& normal,
+bool add_nearly_flat(const PlacedHull& reference, const PlacedHull& incident, const HullAxis& face, const Vec3& normal,
                      const ManifoldPoint& crossing, std::uint32_t tag, Manifold& out) {
   if (normal.cross(crossing.normal).norm() > kNearlyFlat) return false;
   const int first = out.size();
@@ -227,7 +188,7 @@ bool add_nearly_flat(const Placed& reference, const Placed& incident, const Hull
   return put_crossing(crossing, kNearlyFlat * size + std::abs(crossing.gap), first, out);
 }
 
-void collide_placed(Placed& a, Placed& b, Manifold& out) {
+void collide_placed(PlacedHull& a, PlacedHull& b, Manifold& out) {
   const double preference = kHullFacePreference * std::min(a.inradius, b.inradius);
   const HullAxis face_a = best_face_of(a, b), face_b = best_face_of(b, a);
   const double found = std::max(face_a.separation, face_b.separation);
@@ -244,13 +205,13 @@ void collide_placed(Placed& a, Placed& b, Manifold& out) {
   add_face(a, b, face_a, -face_a.n, 0x20000000, out);
 }
 
-Placed& scratch(int which) {
-  static thread_local std::array<Placed, 2> hulls;
+PlacedHull& scratch(int which) {
+  static thread_local std::array<PlacedHull, 2> hulls;
   return hulls[static_cast<std::size_t>(which)];
 }
 
 // The point of a face that is nearest to p, and whether it lies inside.
-Vec3 nearest_on_face(const Placed& hull, std::size_t f, const Vec3& p) {
+Vec3 nearest_on_face(const PlacedHull& hull, std::size_t f, const Vec3& p) {
   const std::vector<int>& corners = hull.hull->faces[f].corners;
   const Vec3& n = hull.normals[f];
   const Vec3 foot = p - (n.dot(p) - hull.offsets[f]) * n;
@@ -258,8 +219,8 @@ Vec3 nearest_on_face(const Placed& hull, std::size_t f, const Vec3& p) {
   Vec3 best = foot;
   double least = kFarAway;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec3 &from = hull.points[Placed::index(corners[k])],
-               &to = hull.points[Placed::index(corners[(k + 1) % corners.size()])];
+    const Vec3 &from = hull.points[PlacedHull::index(corners[k])],
+               &to = hull.points[PlacedHull::index(corners[(k + 1) % corners.size()])];
     const Vec3 side = to - from;
     if (side.cross(n).dot(foot - from) > 0) is_inside = false;
     const Vec3 at = from + std::clamp(side.dot(foot - from) / side.squaredNorm(), 0.0, 1.0) * side;
@@ -275,7 +236,7 @@ struct PointGap {
   std::size_t face;
 };
 
-PointGap point_to_hull(const Placed& hull, const Vec3& p) {
+PointGap point_to_hull(const PlacedHull& hull, const Vec3& p) {
   std::size_t face = 0;
   double most = -kFarAway;
   for (std::size_t f = 0; f < hull.normals.size(); ++f) {
@@ -303,7 +264,7 @@ struct AxisGap {
 };
 
 // The least distance of a segment that stays outside: at one of its ends, at a corner, or between it and an edge.
-AxisGap outside_gap(const Placed& hull, const CapsuleAxis& axis) {
+AxisGap outside_gap(const PlacedHull& hull, const CapsuleAxis& axis) {
   AxisGap best;
   best.separation = kFarAway;
   for (const Vec3& end : {axis.from, axis.to}) {
@@ -317,12 +278,12 @@ AxisGap outside_gap(const Placed& hull, const CapsuleAxis& axis) {
       best = {distance, (at - corner) / distance, at};
   }
   for (const Hull::Edge& edge : hull.hull->edges) {
-    const Vec3 v = hull.edge(edge), line = hull.points[Placed::index(edge.from)] - axis.from;
+    const Vec3 v = hull.edge(edge), line = hull.points[PlacedHull::index(edge.from)] - axis.from;
     const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), both = uu * vv - uv * uv;
     if (both <= 1e-12 * uu * vv) continue;
     const double s = (vv * u.dot(line) - uv * v.dot(line)) / both, t = (uv * u.dot(line) - uu * v.dot(line)) / both;
     if (s < 0 || s > 1 || t < 0 || t > 1) continue;
-    const Vec3 apart = axis.from + s * u - hull.points[Placed::index(edge.from)] - t * v;
+    const Vec3 apart = axis.from + s * u - hull.points[PlacedHull::index(edge.from)] - t * v;
     if (const double distance = apart.norm(); distance < best.separation && distance > 0)
       best = {distance, apart / distance, axis.from + s * u};
   }
@@ -330,14 +291,14 @@ AxisGap outside_gap(const Placed& hull, const CapsuleAxis& axis) {
 }
 
 // The edge that the axis lies along at the distance that was found; none if another feature is the nearest.
-std::optional<RoundLine> edge_beside(const Placed& hull, const RoundLine& capsule, double found) {
+std::optional<RoundLine> edge_beside(const PlacedHull& hull, const RoundLine& capsule, double found) {
   constexpr double kSame = 1e-12;  // of the distance: rounding of two ways to compute it
   std::optional<RoundLine> best;
   double least = found * (1 + kSame);
   for (const Hull::Edge& edge : hull.hull->edges) {
     const Vec3 v = hull.edge(edge);
     const double length = v.norm();
-    const RoundLine line{hull.points[Placed::index(edge.from)] + 0.5 * v, v / length, 0.5 * length, 0};
+    const RoundLine line{hull.points[PlacedHull::index(edge.from)] + 0.5 * v, v / length, 0.5 * length, 0};
     if (line.direction.cross(capsule.direction).norm() > kNearlyParallelLines) continue;
     const auto [s, t] = nearest_on_lines(capsule, line);
     if (const double distance = (capsule.at(s) - line.at(t)).norm(); distance <= least) least = distance, best = line;
@@ -346,7 +307,7 @@ std::optional<RoundLine> edge_beside(const Placed& hull, const RoundLine& capsul
 }
 
 // Whether the segment has a point inside the hull: what all faces leave of it.
-bool enters(const Placed& hull, const CapsuleAxis& axis) {
+bool enters(const PlacedHull& hull, const CapsuleAxis& axis) {
   double low = 0, high = 1;
   const Vec3 u = axis.along();
   for (std::size_t f = 0; f < hull.normals.size(); ++f) {
@@ -358,7 +319,7 @@ bool enters(const Placed& hull, const CapsuleAxis& axis) {
   return low < high;
 }
 
-AxisGap inside_gap(const Placed& hull, const CapsuleAxis& axis) {
+AxisGap inside_gap(const PlacedHull& hull, const CapsuleAxis& axis) {
   AxisGap best;
   const auto try_direction = [&](const Vec3& n) {
     double reach = -kFarAway;
@@ -377,13 +338,13 @@ AxisGap inside_gap(const Placed& hull, const CapsuleAxis& axis) {
 }
 
 // The part of the axis that lies over the face, from 0 to 1.
-std::pair<double, double> over_face(const Placed& hull, std::size_t f, const CapsuleAxis& axis) {
+std::pair<double, double> over_face(const PlacedHull& hull, std::size_t f, const CapsuleAxis& axis) {
   double low = 0, high = 1;
   const Vec3 u = axis.along();
   const std::vector<int>& corners = hull.hull->faces[f].corners;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec3 &from = hull.points[Placed::index(corners[k])],
-               &to = hull.points[Placed::index(corners[(k + 1) % corners.size()])];
+    const Vec3 &from = hull.points[PlacedHull::index(corners[k])],
+               &to = hull.points[PlacedHull::index(corners[(k + 1) % corners.size()])];
     const Vec3 out = (to - from).cross(hull.normals[f]);
     const double at = out.dot(from - axis.from), rate = out.dot(u);
     if (rate == 0 && at < 0) return {1, 0};
@@ -406,7 +367,7 @@ void collide_hulls(const Box& a, const Pose& pose_a, const Convex& b, const Pose
 }
 
 void collide_hull_sphere(const Convex& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out) {
-  Placed& hull = scratch(0);
+  PlacedHull& hull = scratch(0);
   hull.place(a, pose_a);
   const PointGap at = point_to_hull(hull, pose_b.p);
   const double gap = at.distance - b.radius;
@@ -436,7 +397,7 @@ void collide_hull_plane(const Convex& a, const Pose& pose_a, const Plane& b, Man
 }
 
 void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Manifold& out) {
-  Placed& hull = scratch(1);
+  PlacedHull& hull = scratch(1);
   hull.place(b, pose_b);
   const Vec3 half = 0.5 * a.length * pose_a.R.col(2);
   const CapsuleAxis axis{pose_a.p - half, pose_a.p + half};

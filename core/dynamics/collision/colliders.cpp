@@ -33,6 +33,11 @@ struct Extent {
     return symmetric(along * (0.5 * c.length) + across * c.radius);
   }
   Aabb operator()(const Ellipsoid& e) const { return symmetric((R * e.radii.asDiagonal()).rowwise().norm()); }
+  Aabb operator()(const SurfaceShape& on) const {
+    const Vec3 middle = R * (0.5 * (on.surface->low + on.surface->high)),
+               half = R.cwiseAbs() * (0.5 * (on.surface->high - on.surface->low));
+    return {middle - half, middle + half};
+  }
   Aabb operator()(const Plane&) const { return symmetric(Vec3::Constant(kEndless)); }
   Aabb operator()(const Sphere& s) const { return symmetric(Vec3::Constant(s.radius)); }
 };

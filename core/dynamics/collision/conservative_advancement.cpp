@@ -26,6 +26,9 @@ struct BallsAround {
   void operator()(const Ellipsoid& ellipsoid) const { add(Vec3::Zero(), ellipsoid.bounding_radius()); }
   void operator()(const Plane& plane) const { add(Vec3::Zero(), plane.bounding_radius()); }
   void operator()(const Sphere& sphere) const { add(Vec3::Zero(), sphere.radius); }
+  void operator()(const SurfaceShape& on) const {
+    for (const Vec3& corner : on.surface->points) add(corner, 0);
+  }
 
  private:
   void add_ends(double length, double radius) const {
@@ -55,6 +58,8 @@ struct SupportBound {
   double operator()(const Convex& convex) const { return of_balls(convex); }
   double operator()(const Cylinder& cylinder) const { return of_balls(cylinder); }
   double operator()(const Ellipsoid& ellipsoid) const { return of_balls(ellipsoid); }
+  double operator()(const Heightfield& field) const { return of_balls(field); }
+  double operator()(const Mesh& mesh) const { return of_balls(mesh); }
   double of_balls(const Shape& shape) const {
     const Mat3 R = state.rotation(body);
     double most = -std::numeric_limits<double>::infinity();

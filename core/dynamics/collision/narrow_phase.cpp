@@ -1,6 +1,7 @@
 #include "core/dynamics/collision/narrow_phase.h"
 
 #include <algorithm>
+#include <cassert>
 #include <type_traits>
 #include <utility>
 
@@ -117,6 +118,14 @@ struct Exact {
     collide_ellipsoid_sphere(ellipsoid, a, sphere, b, out);
   }
 
+  template <typename Convexes>
+  requires requires(const Convexes& it, const TriangleSurface& on, const Pose& at, Manifold& m) {
+    collide_surface(it, at, on, at, m);
+  }
+  void operator()(const Convexes& convex, const SurfaceShape& on) const {
+    collide_surface(convex, a, *on.surface, b, out);
+  }
+
   void operator()(const Plane&, const Plane&) const {}
 };
 
@@ -143,6 +152,8 @@ struct Collide {
     } else if constexpr (kIsExact<B, A>) {
       Exact{b, a, out}(second, first);
       reverse(out);
+    } else if constexpr (kStandsStill<A> || kStandsStill<B>) {
+      assert((kStandsStill<A> && kStandsStill<B>)&&"no method has this pair");  // or they never meet
     } else {
       const ConvexGap gap = convex_distance(of_a, a, of_b, b);
       out.add(gap.normal, gap.point, gap.gap, 0);

@@ -2,7 +2,7 @@
 // Two polyhedra (boxes, hulls) use the separation along the best axis, among the face normals of both and the products
 // of the edges. It equals the distance for every kind of touch, and never exceeds it. Flat and long contacts have
 // several points, each with its own gap. Pairs without an algorithm of their own have one point, by convex_distance.h.
-// A compound has the points of all its parts.
+// A compound has the points of all its parts. On a surface, `part_b` numbers the regions that are touched.
 #pragma once
 
 #include <array>
@@ -72,6 +72,11 @@ void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b,
 void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out);
 void collide_cylinder_sphere(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out);
 void collide_ellipsoid_plane(const Ellipsoid& a, const Pose& pose_a, const Plane& b, Manifold& out);
+// Shapes on a surface; only points with a gap of less than the shape's size, if there are such.
+void collide_surface(const Box& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);
+void collide_surface(const Capsule& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);
+void collide_surface(const Convex& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);
+void collide_surface(const Sphere& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);
 void collide_ellipsoid_sphere(const Ellipsoid& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
                               Manifold& out);
 

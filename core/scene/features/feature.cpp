@@ -47,14 +47,14 @@ static_assert(std::size(kPlainWords) == static_cast<std::size_t>(Feature::first_
 
 constexpr int kShapes = static_cast<int>(std::variant_size_v<Shape>);
 
-// Calls visitor(a, b) for each pair of indices in Shape that can meet: not two planes, and of a compound its parts.
+// Calls visitor(a, b) for each pair of indices in Shape that can meet; of a compound, its parts do.
 template <typename Visitor>
 void for_each_pair(const Visitor& visitor) {
   constexpr const Shape* shapes = nullptr;
-  constexpr int plane = index_among<Plane>(shapes), compound = index_among<Compound>(shapes);
+  constexpr int compound = index_among<Compound>(shapes);
   for (int b = 0; b < kShapes; ++b) {
     for (int a = 0; a <= b; ++a)
-      if (a != compound && b != compound && (a != plane || b != plane)) visitor(a, b);
+      if (a != compound && b != compound && can_meet(a, b)) visitor(a, b);
   }
 }
 

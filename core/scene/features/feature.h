@@ -63,7 +63,7 @@ struct FeatureWord {
   Feature feature;
   std::string word;  // "spring", "joint:hinge", "contact:box-plane" (the two shapes in alphabetical order)
 };
-// Every feature once. A pair of planes is missing because planes never meet.
+// Every feature once. Pairs that stand still, such as two planes, are missing.
 const std::vector<FeatureWord>& feature_words();
 const std::string& word_of(Feature feature);
 std::optional<Feature> feature_of(std::string_view word);
@@ -100,17 +100,30 @@ constexpr Feature joint_feature() {
 }
 inline bool is_joint(Feature feature) { return feature >= Feature::first_joint && feature < Feature::first_contact; }
 
+// Whether two shapes, by their index in Shape, can meet: one of them may move.
+template <typename... Types>
+constexpr bool can_meet(int a, int b, const std::variant<Types...>*) {
+  constexpr bool stand[] = {kStandsStill<Types>...};
+  return !(stand[a] && stand[b]);
+}
+constexpr bool can_meet(int a, int b) { return can_meet(a, b, static_cast<const Shape*>(nullptr)); }
+
 // Every pair of these shapes, and of all shapes, that can meet.
 template <typename... Types>
 Features contacts_among() {
   Features contacts;
   constexpr const Shape* shapes = nullptr;
-  constexpr int places[] = {index_among<Types>(shapes)...}, plane = index_among<Plane>(shapes);
+  constexpr int places[] = {index_among<Types>(shapes)...};
   for (const int a : places) {
     for (const int b : places)
-      if (a != plane || b != plane) contacts.insert(contact_feature(a, b));
+      if (can_meet(a, b)) contacts.insert(contact_feature(a, b));
   }
   return contacts;
+}
+// The pairs of one shape with each of these.
+template <typename On, typename... Types>
+Features contacts_on() {
+  return {contact_feature<On, Types>()...};
 }
 Features contacts_of_all_shapes();
 Features joints_of_all_types();

@@ -48,11 +48,14 @@ Mat3 read_inertia(const TableReader& row, const Body& body) {
   return inertia;
 }
 
-bool read_fixed(const TableReader& row, bool is_plane) {
+bool read_fixed(const TableReader& row, const Body& body) {
   const auto value = row.find("fixed");
-  if (!value) return is_plane;
+  const bool stands = body.shape && stands_still(*body.shape);
+  if (!value) return stands;
   const bool fixed = value->flag();
-  if (is_plane && !fixed) value->refuse("found false, but a plane never moves; allowed: true, or no such key");
+  if (stands && !fixed)
+    value->refuse(
+        fmt::format("found false, but a {} never moves; allowed: true, or no such key", shape_name(*body.shape)));
   return fixed;
 }
 
@@ -79,7 +82,7 @@ Body read_body(const TableReader& row) {
   refuse_if(fault_of_name(body.name), row);
   body.shape = read_shapes(row);
   const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
-  body.fixed = read_fixed(row, is_plane);
+  body.fixed = read_fixed(row, body);
   const auto collides = row.find("collides");
   body.collides = collides ? collides->flag() : body.shape.has_value();
   if (!body.fixed || row.find("mass")) body.mass = row.at("mass").positive();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "core/base/error.h"
@@ -21,6 +22,8 @@ Keys keys_of(const ShapeInfo& info) {
   Keys keys = {"type"};
   keys.insert(keys.end(), info.keys.begin(), info.keys.end());
   if (std::holds_alternative<Convex>(info.prototype)) keys.insert(keys.end(), {"points", "file", "scale"});
+  if (std::holds_alternative<Mesh>(info.prototype)) keys.insert(keys.end(), {"points", "triangles", "file", "scale"});
+  if (std::holds_alternative<Heightfield>(info.prototype)) keys.insert(keys.end(), {"size", "heights"});
   if (info.is_solid) keys.insert(keys.end(), {"position", "orientation_wxyz"});
   return keys;
 }
@@ -35,28 +38,76 @@ void read_field(const TomlValue& value, ShapeQuantity quantity, Vec3& out) {
     value.refuse("found a length that is not greater than 0; allowed: three lengths in m");
 }
 
-std::vector<Vec3> points_of_file(const TomlValue& value, double scale) {
-  const std::string path = path_beside(value.path(), value.text());
-  std::vector<Vec3> points = parse_mesh(read_text_file(path), value.text()).points;
-  for (Vec3& point : points) point *= scale;
-  return points;
-}
-
-Convex read_convex(const TableReader& table) {
-  const auto file = table.find("file"), points = table.find("points"), scale = table.find("scale");
-  if (file && points) points->refuse("a hull has either points or a file; allowed: one of these keys");
-  if (scale && !file) scale->refuse("only the points of a file are scaled; allowed: with the key file");
-  const TomlValue given = file ? *file : table.at("points");
+// What `make` makes of it, with the place of `given` in its errors.
+template <typename Make>
+auto made_of(const TomlValue& given, const Make& make) {
   try {
-    if (file) return {hull_of(points_of_file(*file, scale ? scale->positive() : 1))};
-    std::vector<Vec3> corners;
-    for (const TomlValue& point : points->items()) corners.push_back(point.vector());
-    return {hull_of(corners)};
+    return make();
   } catch (const InputError& error) {
     const std::string what = error.what();
     if (what.starts_with(given.path() + ":")) throw;  // it has its place
     given.refuse(what);
   }
+}
+
+Corners read_corners(const TomlValue& value) {
+  Corners corners;
+  const std::vector<double> numbers = value.numbers({3});
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (numbers[k] != std::floor(numbers[k]) || numbers[k] < 0 || numbers[k] > 1e9)
+      value.refuse(fmt::format("found {}; allowed: three whole numbers, of points from 0 on", numbers[k]));
+    corners[k] = static_cast<int>(numbers[k]);
+  }
+  return corners;
+}
+
+// From a file, or from the keys of the table itself. A hull needs no triangles.
+MeshFile read_triangles(const TableReader& table, const std::string& shape, bool needs_triangles) {
+  const auto file = table.find("file"), points = table.find("points"), scale = table.find("scale");
+  if (file && points)
+    points->refuse(fmt::format("a {} has either points or a file; allowed: one of these keys", shape));
+  if (scale && !file) scale->refuse("only the points of a file are scaled; allowed: with the key file");
+  MeshFile mesh;
+  if (file) {
+    mesh = parse_mesh(read_text_file(path_beside(file->path(), file->text())), file->text());
+    const double factor = scale ? scale->positive() : 1;
+    for (Vec3& point : mesh.points) point *= factor;
+    return mesh;
+  }
+  for (const TomlValue& point : table.at("points").items()) mesh.points.push_back(point.vector());
+  if (!needs_triangles) return mesh;
+  for (const TomlValue& corners : table.at("triangles").items()) mesh.triangles.push_back(read_corners(corners));
+  return mesh;
+}
+
+TomlValue triangles_given(const TableReader& table) { return table.at(table.find("file") ? "file" : "points"); }
+
+Convex read_convex(const TableReader& table) {
+  const TomlValue given = triangles_given(table);
+  return made_of(given, [&] { return Convex{hull_of(read_triangles(table, "hull", false).points)}; });
+}
+
+Mesh read_mesh(const TableReader& table) {
+  const TomlValue given = triangles_given(table);
+  return made_of(given, [&] {
+    const MeshFile mesh = read_triangles(table, "mesh", true);
+    return Mesh{{closed_surface(mesh.points, mesh.triangles)}};
+  });
+}
+
+Heightfield read_heightfield(const TableReader& table) {
+  Heightfield field;
+  const std::vector<double> size = table.at("size").numbers({2});
+  if (!(std::min(size[0], size[1]) > 0))
+    table.at("size").refuse("found a length that is not greater than 0; allowed: two lengths in m");
+  field.size = {size[0], size[1]};
+  const TomlValue heights = table.at("heights");
+  for (const TomlValue& row : heights.items()) {
+    if (!row.is_array()) row.refuse_found("a row of heights in m, [0, 0.1, …]");
+    field.heights.push_back(row.numbers({row.items().size()}));
+  }
+  field.surface = made_of(heights, [&] { return height_surface(field.size, field.heights); });
+  return field;
 }
 
 PlacedShape read_placed(const TomlValue& value) {
@@ -75,6 +126,8 @@ PlacedShape read_placed(const TomlValue& value) {
   table.narrow(keys_of(*info), fmt::format("{} {}", type == "ellipsoid" ? "an" : "a", type));
   PlacedShape placed = {info->prototype, {}};
   if (auto* convex = std::get_if<Convex>(&placed.shape)) *convex = read_convex(table);
+  if (auto* mesh = std::get_if<Mesh>(&placed.shape)) *mesh = read_mesh(table);
+  if (auto* field = std::get_if<Heightfield>(&placed.shape)) *field = read_heightfield(table);
   for_each_field(placed.shape, [&](const char* key, ShapeQuantity quantity, auto& field) {
     read_field(table.at(key), quantity, field);
   });
@@ -105,8 +158,8 @@ std::optional<Shape> read_shapes(const TableReader& row) {
   Compound compound;
   for (const TomlValue& value : several ? several->items() : std::vector<TomlValue>{*one}) {
     compound.parts.push_back(read_placed(value));
-    if (several && std::holds_alternative<Plane>(compound.parts.back().shape))
-      value.refuse("a plane is given in W and cannot be one of several shapes; allowed: shape = { … }");
+    if (const Shape& shape = compound.parts.back().shape; several && stands_still(shape))
+      value.refuse(fmt::format("a {} cannot be one of several shapes; allowed: shape = {{ … }}", shape_name(shape)));
   }
   if (compound.parts.size() == 1 && is_centred(compound.parts[0])) return compound.parts[0].shape;
   return compound;

@@ -32,6 +32,7 @@ bool is_inside(const Shape& shape, const Vec3& p) {
           },
           [&](const Cylinder& c) { return std::hypot(p.x(), p.y()) <= c.radius && std::abs(p.z()) <= 0.5 * c.length; },
           [&](const Ellipsoid& e) { return p.cwiseQuotient(e.radii).norm() <= 1; },
+          [&](const SurfaceShape&) { return false; },  // see surface_test.cpp
           [&](const Plane& plane) { return plane.normal.dot(p) <= plane.offset; },
           [&](const Sphere& s) { return p.norm() <= s.radius; }},
       shape);

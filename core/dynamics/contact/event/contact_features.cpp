@@ -45,9 +45,10 @@ struct SurfacePoint {
     return choices;
   }
 
-  // A curved rim or surface is no feature of this method; no scene with one gets here.
+  // A curved rim or surface is no feature of this method; no scene with one gets here, nor one with triangles.
   Choices operator()(const Cylinder&) const { return {{}, {}, {.at = at}}; }
   Choices operator()(const Ellipsoid&) const { return {{}, {}, {.at = at}}; }
+  Choices operator()(const SurfaceShape&) const { return {{}, {}, {.at = at}}; }
   Choices operator()(const Compound&) const { return {{}, {}, {.at = at}}; }  // its part is asked instead
 
   Choices operator()(const Convex& convex) const {
@@ -255,6 +256,7 @@ struct EndsOf {
   // No scene with a curved rim or surface gets here, and a contact of a compound lasts to the end of its step.
   double operator()(const Cylinder&) const { return kEndless; }
   double operator()(const Ellipsoid&) const { return kEndless; }
+  double operator()(const SurfaceShape&) const { return kEndless; }
   double operator()(const Compound&) const { return kEndless; }
 
  private:

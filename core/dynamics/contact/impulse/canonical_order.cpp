@@ -35,7 +35,7 @@ Vec3 middle_of(const Scene& scene, const std::vector<Collider>& colliders) {
 }
 
 std::array<double, 5> rank_of(const Scene& scene, const Collider& collider, double size) {
-  if (!std::isfinite(collider.inradius)) return {1, in_steps(std::get<Plane>(collider.shape).offset, size)};
+  if (const auto* plane = std::get_if<Plane>(&collider.shape)) return {1, in_steps(plane->offset, size)};
   const Body& body = scene.bodies[static_cast<std::size_t>(collider.body)];
   const double height = scene.gravity.isZero(0) ? 0 : -scene.gravity.normalized().dot(body.position);
   return {0, in_steps(height, size), body.fixed ? 0 : in_steps(std::log(body.mass), 1),

@@ -317,7 +317,9 @@ const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
     .features = joined(
-        contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
+        joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
+               joined(contacts_on<Heightfield, Box, Capsule, Convex, Sphere>(),
+                      contacts_on<Mesh, Box, Capsule, Convex, Sphere>())),
         {contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>(), contact_feature<Ellipsoid, Plane>(),
          contact_feature<Ellipsoid, Sphere>(), Feature::placed_shapes, Feature::contact_filter,
          Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none, Feature::restitution,

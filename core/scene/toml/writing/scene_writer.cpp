@@ -40,6 +40,13 @@ Json json_of_shape(const Shape& shape) {
     json["points"] = Json::array();
     for (const Vec3& point : convex->hull->points) json["points"].push_back(list(point));
   }
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    for (const Vec3& point : mesh->surface->points) json["points"].push_back(list(point));
+    for (const TriangleSurface::Triangle& triangle : mesh->surface->triangles)
+      json["triangles"].push_back(triangle.corners);
+  }
+  if (const auto* field = std::get_if<Heightfield>(&shape))
+    json["size"] = field->size, json["heights"] = field->heights;
   return json;
 }
 

@@ -164,7 +164,7 @@ export class CanvasView {
         [2, 0],
       ])
         this.line(ring(24).map(([c, s]) => world([0, 1, 2].map((k) => shape.radii[k] * (k === a ? c : k === b ? s : 0)))));
-    } else if (shape.type === "convex") {
+    } else if (shape.triangles) {
       const corners = shape.points.map(world);
       for (const triangle of shape.triangles) this.line([...triangle, triangle[0]].map((k) => corners[k]));
     }

@@ -42,7 +42,7 @@ function ownExtentOf(shape) {
   if (shape.type === "sphere") return shape.radius;
   if (shape.type === "cylinder") return Math.hypot(shape.radius, shape.length / 2);
   if (shape.type === "ellipsoid") return Math.max(...shape.radii);
-  if (shape.type === "convex") return Math.max(...shape.points.map((p) => Math.hypot(...p)));
+  if (shape.triangles) return Math.max(...shape.points.map((p) => Math.hypot(...p)));
   if (shape.type === "capsule") return shape.radius + shape.length / 2;
   if (shape.type === "box") return Math.hypot(...shape.size) / 2;
   return 0;
@@ -166,7 +166,7 @@ function probesOf(shape) {
   if (shape.bare) return [];
   if (shape.type === "sphere") return [[[0, 0, 0], shape.radius]];
   if (shape.type === "capsule") return [-1, 0, 1].map((end) => [[0, 0, (end * shape.length) / 2], shape.radius]);
-  if (shape.type === "convex") return shape.points.map((point) => [point, 0]);
+  if (shape.triangles) return shape.points.map((point) => [point, 0]);
   if (shape.type === "cylinder") return rimsOf(shape).map((point) => [point, 0]);
   if (shape.type !== "box") return [];
   const corners = [];

@@ -305,7 +305,7 @@ function matrixOf(poses, shape) {
 // Shapes with the same key share one mesh, which is scaled to each.
 function keyOf(shape) {
   if (shape.type === "capsule") return `capsule ${shape.radius} ${shape.length}`;
-  if (shape.type === "convex") return `convex ${shape.points}`;
+  if (shape.triangles) return `${shape.type} ${shape.points}`;
   return shape.type === "ellipsoid" ? "sphere" : shape.type;
 }
 
@@ -321,7 +321,7 @@ function hullOf(shape) {
 function geometryOf(shape, count) {
   const fine = count > 200 ? 12 : count > 40 ? 16 : 24;
   let geometry;
-  if (shape.type === "convex") return hullOf(shape);
+  if (shape.triangles) return hullOf(shape);
   if (shape.type === "cylinder") geometry = new THREE.CylinderGeometry(1, 1, 1, fine).rotateX(Math.PI / 2);
   else if (shape.type === "sphere" || shape.type === "ellipsoid") geometry = new THREE.SphereGeometry(1, fine, fine / 2);
   else if (shape.type === "capsule")

@@ -70,6 +70,11 @@ class Fields {
                     for (const Vec3& point : s.hull->points) add(point);
                   },
                   [&](const Cylinder& s) { add(s.radius), add(s.length); }, [&](const Ellipsoid& s) { add(s.radii); },
+                  [&](const SurfaceShape& s) {
+                    for (const Vec3& point : s.surface->points) add(point);
+                    for (const auto& triangle : s.surface->triangles)
+                      for (const int corner : triangle.corners) add(corner);
+                  },
                   [&](const Plane& s) { add(s.normal), add(s.offset); }, [&](const Sphere& s) { add(s.radius); }},
         shape);
   }

@@ -1,0 +1,323 @@
+// Convex shapes on surfaces of triangles. A ball, a capsule, a box and a hull are points, edges and faces, the first
+// two with a radius around them. A contact is a pair of features whose distance is a local minimum: its normal points
+// out of both features. So a body that slides over the seam of two coplanar triangles meets no edge there.
+//
+//   point on a triangle; peak on a face; ridge across an edge; with a radius also point and edge on a ridge or a peak
+//
+// Only ridges and peaks, which stick out, touch by themselves. A triangle counts only for bodies whose centre is in
+// front of it: the back of a thin wall is not an overlap.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/dynamics/collision/placed_hull.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kOnTriangle = 1e-9;  // of the triangle's size: a point on the seam of two triangles is on one at least
+constexpr double kAcross = 1e-9;      // the sine between lines that cross
+constexpr double kSlop = 0.02;        // of the inradius: of two overlaps that differ by more, the shallower one is real
+
+std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
+
+// A convex shape in the surface's frame.
+struct RoundHull {
+  std::vector<Vec3> points;
+  struct Edge {
+    int from, to;
+    Vec3 into_left = Vec3::Zero(), into_right = Vec3::Zero();  // unit, along the faces; zero for an edge without faces
+  };
+  std::vector<Edge> edges;
+  double radius = 0;    // m, around all of these
+  double inradius = 0;  // m
+  Vec3 centre;
+  const PlacedHull* faces = nullptr;
+
+  Vec3 along(const Edge& edge) const { return points[index_of(edge.to)] - points[index_of(edge.from)]; }
+};
+
+struct Touch {
+  Vec3 normal;  // unit, from the surface to the shape
+  Vec3 foot;    // m, on the surface
+  double gap;   // m
+  std::uint32_t feature;
+  int patch;  // the flat region on which it lies; with a number beyond all of these for a ridge or peak
+  int of;     // the point of the shape, or the peak, of which only the shallowest overlap is real; -1: none
+};
+
+class OnSurface {
+ public:
+  OnSurface(const TriangleSurface& surface, const RoundHull& shape) : surface_(surface), shape_(shape) {}
+
+  // Nearest or not, all within `reach` [m].
+  const std::vector<Touch>& find(double reach) {
+    reach_ = reach;
+    touches_.clear(), near_.clear();
+    Vec3 low = shape_.points.front(), high = low;
+    for (const Vec3& point : shape_.points) low = low.cwiseMin(point), high = high.cwiseMax(point);
+    const Vec3 margin = Vec3::Constant(shape_.radius + reach);
+    surface_.find_near(low - margin, high + margin, near_);
+    std::sort(near_.begin(), near_.end());
+    for (const int t : near_) points_on(t);
+    for (const int t : near_) {
+      for (const int peak : surface_.peaks_of[index_of(t)]) on_peak(peak);
+      for (const int ridge : surface_.ridges_of[index_of(t)]) on_ridge(ridge);
+    }
+    leave_out_false_overlaps();
+    return touches_;
+  }
+
+ private:
+  const Vec3& point(int i) const { return surface_.points[index_of(i)]; }
+  int beyond_patches(int which) const { return static_cast<int>(surface_.triangles.size()) + which; }
+
+  void add(const Vec3& normal, const Vec3& foot, double gap, std::uint32_t feature, int patch, int of) {
+    if (gap > reach_) return;
+    touches_.push_back({normal, foot, gap, feature, patch, of});
+  }
+
+  bool is_inside(const TriangleSurface::Triangle& triangle, const Vec3& foot) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &from = point(triangle.corners[k]), side = point(triangle.corners[(k + 1) % 3]) - from;
+      if (triangle.normal.dot(side.cross(foot - from)) < -kOnTriangle * side.squaredNorm()) return false;
+    }
+    return true;
+  }
+
+  void points_on(int t) {
+    const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
+    const Vec3 &n = triangle.normal, &at = point(triangle.corners[0]);
+    if (!(n.dot(shape_.centre - at) > 0)) return;
+    for (std::size_t i = 0; i < shape_.points.size(); ++i) {
+      const double height = n.dot(shape_.points[i] - at), gap = height - shape_.radius;
+      if (gap > reach_) continue;
+      const Vec3 foot = shape_.points[i] - height * n;
+      if (!is_inside(triangle, foot)) continue;
+      const auto number = static_cast<std::uint32_t>(i);
+      const std::uint32_t feature = number ^ 0x9E3779B1u * static_cast<std::uint32_t>(triangle.patch);
+      const bool is_known = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
+        return touch.feature == feature && touch.patch == triangle.patch;
+      });
+      if (!is_known) add(n, foot, gap, feature, triangle.patch, static_cast<int>(i));
+    }
+  }
+
+  bool points_out_of(const TriangleSurface::Peak& peak, const Vec3& n) const {
+    return std::all_of(peak.edges.begin(), peak.edges.end(), [&](const Vec3& e) { return n.dot(e) <= kNearlyFlat; });
+  }
+  static bool points_out_of(const TriangleSurface::Ridge& ridge, const Vec3& n) {
+    return n.dot(ridge.into_left) <= kNearlyFlat && n.dot(ridge.into_right) <= kNearlyFlat;
+  }
+  bool points_out_of(const RoundHull::Edge& edge, const Vec3& n) const {
+    return n.dot(edge.into_left) <= kNearlyFlat && n.dot(edge.into_right) <= kNearlyFlat;
+  }
+
+  void on_peak(int number) {
+    const TriangleSurface::Peak& peak = surface_.peaks[index_of(number)];
+    const Vec3& q = point(peak.point);
+    const std::uint32_t tag = 0x40000000u ^ static_cast<std::uint32_t>(number) * 0x85EBCA77u;
+    if (shape_.faces) return peak_on_faces(number, peak, q, tag);
+    for (std::size_t i = 0; i < shape_.points.size(); ++i)
+      ball_on(q, shape_.points[i], tag ^ static_cast<std::uint32_t>(i), beyond_patches(number),
+              [&](const Vec3& n) { return strictly_out_of(peak, n); });
+    for (const RoundHull::Edge& edge : shape_.edges) {
+      const Vec3 &from = shape_.points[index_of(edge.from)], along = shape_.along(edge);
+      const double share = along.dot(q - from) / along.squaredNorm();
+      if (share <= 0 || share >= 1) continue;
+      ball_on(q, from + share * along, tag ^ 0x100u, beyond_patches(number),
+              [&](const Vec3& n) { return strictly_out_of(peak, n); });
+    }
+  }
+
+  // Where a round shape lies on a triangle, its point there says so.
+  static bool strictly_out_of(const TriangleSurface::Peak& peak, const Vec3& n) {
+    return std::all_of(peak.edges.begin(), peak.edges.end(), [&](const Vec3& e) { return n.dot(e) < -kOnTriangle; });
+  }
+  static bool strictly_out_of(const TriangleSurface::Ridge& ridge, const Vec3& n) {
+    return n.dot(ridge.into_left) < -kOnTriangle && n.dot(ridge.into_right) < -kOnTriangle;
+  }
+
+  template <typename IsOut>
+  void ball_on(const Vec3& foot, const Vec3& centre, std::uint32_t feature, int patch, const IsOut& is_out) {
+    const Vec3 line = centre - foot;
+    const double distance = line.norm();
+    if (distance > 0 && is_out(line / distance))
+      add(line / distance, foot, distance - shape_.radius, feature, patch, -1);
+  }
+
+  void peak_on_faces(int number, const TriangleSurface::Peak& peak, const Vec3& q, std::uint32_t tag) {
+    const PlacedHull& hull = *shape_.faces;
+    for (std::size_t f = 0; f < hull.normals.size(); ++f) {
+      const double gap = hull.normals[f].dot(q) - hull.offsets[f];
+      if (gap > reach_ || !points_out_of(peak, -hull.normals[f])) continue;
+      if (!is_over(hull, f, q - gap * hull.normals[f])) continue;
+      add(-hull.normals[f], q, gap, tag ^ static_cast<std::uint32_t>(f), patch_beside(peak, -hull.normals[f], number),
+          -2 - number);
+    }
+  }
+
+  static bool is_over(const PlacedHull& hull, std::size_t f, const Vec3& foot) {
+    const std::vector<int>& corners = hull.hull->faces[f].corners;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3 &from = hull.points[index_of(corners[k])],
+                 side = hull.points[index_of(corners[(k + 1) % corners.size()])] - from;
+      if (hull.normals[f].dot(side.cross(foot - from)) < -kOnTriangle * side.squaredNorm()) return false;
+    }
+    return true;
+  }
+
+  // A face that lies flat on a region belongs to it, with all corners of both.
+  int patch_beside(const TriangleSurface::Peak& peak, const Vec3& n, int number) const {
+    for (const int t : near_) {
+      const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
+      const auto& c = triangle.corners;
+      if (std::find(c.begin(), c.end(), peak.point) != c.end() && triangle.normal.cross(n).norm() < kNearlyFlat &&
+          triangle.normal.dot(n) > 0)
+        return triangle.patch;
+    }
+    return beyond_patches(number);
+  }
+
+  void on_ridge(int number) {
+    const TriangleSurface::Ridge& ridge = surface_.ridges[index_of(number)];
+    const Vec3 &from = point(ridge.from), along = point(ridge.to) - from;
+    const std::uint32_t tag = 0x20000000u ^ static_cast<std::uint32_t>(number) * 0xC2B2AE3Du;
+    const int own_patch = beyond_patches(static_cast<int>(surface_.peaks.size()) + number);
+    for (std::size_t k = 0; k < shape_.edges.size(); ++k)
+      ridge_on_edge(ridge, from, along, shape_.edges[k], tag ^ static_cast<std::uint32_t>(k), own_patch);
+    if (shape_.faces) return;
+    for (std::size_t i = 0; i < shape_.points.size(); ++i) {
+      const double share = along.dot(shape_.points[i] - from) / along.squaredNorm();
+      if (share < 0 || share > 1) continue;
+      ball_on(from + share * along, shape_.points[i], tag ^ 0x1000u ^ static_cast<std::uint32_t>(i), own_patch,
+              [&](const Vec3& n) { return strictly_out_of(ridge, n); });
+    }
+  }
+
+  void ridge_on_edge(const TriangleSurface::Ridge& ridge, const Vec3& from, const Vec3& u, const RoundHull::Edge& edge,
+                     std::uint32_t feature, int own_patch) {
+    const Vec3 &start = shape_.points[index_of(edge.from)], v = shape_.along(edge), across = u.cross(v);
+    const double length = across.norm();
+    if (!(length > kAcross * u.norm() * v.norm())) return;
+    for (const double side : {1.0, -1.0}) {
+      const Vec3 n = side / length * across;
+      if (!points_out_of(ridge, n) || !points_out_of(edge, -n)) continue;
+      const Vec3 line = start - from;
+      const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), both = uu * vv - uv * uv;
+      const double s = (vv * u.dot(line) - uv * v.dot(line)) / both, t = (uv * u.dot(line) - uu * v.dot(line)) / both;
+      if (s < 0 || s > 1 || t < 0 || t > 1) continue;
+      add_crossing(ridge, n, from + s * u, start + t * v, feature, own_patch);
+    }
+  }
+
+  // An edge that lies nearly flat on one of the triangles belongs to its region, and has its normal.
+  void add_crossing(const TriangleSurface::Ridge& ridge, const Vec3& n, const Vec3& foot, const Vec3& own,
+                    std::uint32_t feature, int own_patch) {
+    for (const int t : {ridge.left, ridge.right}) {
+      const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
+      if (triangle.normal.dot(n) > 0 && triangle.normal.cross(n).norm() < kNearlyFlat)
+        return add(triangle.normal, foot, triangle.normal.dot(own - foot) - shape_.radius, feature, triangle.patch, -1);
+    }
+    add(n, foot, n.dot(own - foot) - shape_.radius, feature, own_patch, -1);
+  }
+
+  // A corner that has gone into a step a little is deep below the step's top, too. Only its shallowest overlap is real.
+  void leave_out_false_overlaps() {
+    const double slop = kSlop * shape_.inradius;
+    const auto is_false = [&](const Touch& touch) {
+      if (touch.of == -1 || touch.gap > -slop) return false;
+      return std::any_of(touches_.begin(), touches_.end(),
+                         [&](const Touch& other) { return other.of == touch.of && other.gap > touch.gap + slop; });
+    };
+    std::vector<Touch> real;
+    std::copy_if(touches_.begin(), touches_.end(), std::back_inserter(real),
+                 [&](const Touch& touch) { return !is_false(touch); });
+    touches_.swap(real);
+  }
+
+  const TriangleSurface& surface_;
+  const RoundHull& shape_;
+  double reach_ = 0;
+  std::vector<int> near_;
+  std::vector<Touch> touches_;
+};
+
+// Those of one region stand together, because together they are reduced to a few.
+void add_to(Manifold& out, std::vector<Touch> touches, const Pose& of_surface) {
+  std::stable_sort(touches.begin(), touches.end(), [](const Touch& x, const Touch& y) { return x.gap < y.gap; });
+  if (touches.size() > Manifold::kMost) touches.resize(Manifold::kMost);
+  std::stable_sort(touches.begin(), touches.end(), [](const Touch& x, const Touch& y) { return x.patch < y.patch; });
+  std::uint16_t region = 0;
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    const Touch& touch = touches[i];
+    if (i > 0 && touch.patch != touches[i - 1].patch) ++region;
+    const Vec3 n = of_surface.R * touch.normal;
+    out.add({n, of_surface.p + of_surface.R * touch.foot + 0.5 * touch.gap * n, touch.gap, touch.feature, 0, region});
+  }
+}
+
+void collide_round(const RoundHull& shape, double size, const TriangleSurface& surface, const Pose& of_surface,
+                   Manifold& out) {
+  OnSurface on(surface, shape);
+  // The surface may be far away: then what comes nearest is still a point.
+  const double farthest = surface.bounding_radius + shape.centre.norm() + size;
+  double reach = size;
+  std::vector<Touch> touches = on.find(reach);
+  while (touches.empty() && reach < farthest) reach *= 4, touches = on.find(reach);
+  add_to(out, std::move(touches), of_surface);
+}
+
+Pose seen_from(const Pose& frame, const Pose& pose) {
+  return {frame.R.transpose() * (pose.p - frame.p), frame.R.transpose() * pose.R};
+}
+
+RoundHull round_hull_of(const PlacedHull& placed) {
+  RoundHull shape;
+  shape.points = placed.points, shape.faces = &placed, shape.centre = placed.centre, shape.inradius = placed.inradius;
+  for (const Hull::Edge& edge : placed.hull->edges) {
+    const Vec3 along = placed.edge(edge).normalized();
+    shape.edges.push_back({edge.from, edge.to, placed.normals[index_of(edge.left)].cross(along),
+                           along.cross(placed.normals[index_of(edge.right)])});
+  }
+  return shape;
+}
+
+template <typename Polyhedron>
+void collide_polyhedron(const Polyhedron& a, const Pose& pose_a, const TriangleSurface& surface, const Pose& pose_b,
+                        Manifold& out) {
+  static thread_local PlacedHull placed;
+  placed.place(a, seen_from(pose_b, pose_a));
+  collide_round(round_hull_of(placed), a.bounding_radius(), surface, pose_b, out);
+}
+
+}  // namespace
+
+void collide_surface(const Box& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out) {
+  collide_polyhedron(a, pose_a, b, pose_b, out);
+}
+
+void collide_surface(const Convex& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out) {
+  collide_polyhedron(a, pose_a, b, pose_b, out);
+}
+
+void collide_surface(const Capsule& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b,
+                     Manifold& out) {
+  const Pose at = seen_from(pose_b, pose_a);
+  const Vec3 half = 0.5 * a.length * at.R.col(2);
+  RoundHull shape;
+  shape.points = {at.p - half, at.p + half}, shape.edges = {{0, 1}};
+  shape.radius = shape.inradius = a.radius, shape.centre = at.p;
+  collide_round(shape, a.bounding_radius(), b, pose_b, out);
+}
+
+void collide_surface(const Sphere& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out) {
+  RoundHull shape;
+  shape.centre = seen_from(pose_b, pose_a).p, shape.points = {shape.centre};
+  shape.radius = shape.inradius = a.radius;
+  collide_round(shape, a.radius, b, pose_b, out);
+}
+
+}  // namespace rigor
