@@ -9,14 +9,15 @@
 
 namespace rigor {
 
-std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt) {
+std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt, double tolerance) {
   static const std::map<std::string, std::string> integrators = {{"euler", "mjINT_EULER"},
                                                                  {"implicit", "mjINT_IMPLICIT"},
                                                                  {"implicitfast", "mjINT_IMPLICITFAST"},
                                                                  {"rk4", "mjINT_RK4"}};
   const bool matched = settings.track == Track::matched;
   std::vector<std::string> calls = {fmt::format("m->opt.integrator = {};", integrators.at(settings.method))};
-  if (matched) calls.insert(calls.end(), {"m->opt.solver = mjSOL_NEWTON;", "m->opt.tolerance = 1e-10;"});
+  if (matched)
+    calls.insert(calls.end(), {"m->opt.solver = mjSOL_NEWTON;", fmt::format("m->opt.tolerance = {:g};", tolerance)});
   if (const auto cone = word_to_set(settings, kMujocoCone)) {
     calls.push_back(fmt::format("m->opt.cone = {};", *cone == "elliptic" ? "mjCONE_ELLIPTIC" : "mjCONE_PYRAMIDAL"));
   }

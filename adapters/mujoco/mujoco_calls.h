@@ -8,6 +8,7 @@
 
 namespace rigor {
 
-std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt);
+// `tolerance`: of the solver, on the track `matched`.
+std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt, double tolerance);
 
 }  // namespace rigor

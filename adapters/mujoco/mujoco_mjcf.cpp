@@ -72,8 +72,8 @@ struct GeomOf {
 
 class Writer {
  public:
-  Writer(const Scene& scene, const SpanningTree& tree, const Settings& settings)
-      : scene_(scene), tree_(tree), settings_(settings) {}
+  Writer(const Scene& scene, const SpanningTree& tree, const Settings& settings, double tolerance)
+      : scene_(scene), tree_(tree), settings_(settings), tolerance_(tolerance) {}
 
   std::string text() {
     add("<mujoco>\n");
@@ -107,7 +107,7 @@ class Writer {
     add(R"(<option gravity="{}" integrator="{}")", text_of(scene_.gravity), kIntegrators.at(settings_.method));
     const bool matched = settings_.track == Track::matched;
     if (const auto cone = word_to_set(settings_, kMujocoCone)) add(R"( cone="{}")", *cone);
-    if (matched) add(R"( solver="Newton" tolerance="1e-10")");  // with 1e-15 its line search fails now and then
+    if (matched) add(R"( solver="Newton" tolerance="{:g}")", tolerance_);
     for (const OptionInfo& option : {kMujocoIterations, kMujocoImpratio}) {
       if (const auto number = number_to_set(settings_, option)) add(R"( {}="{}")", option.name, *number);
     }
@@ -357,6 +357,7 @@ class Writer {
   const Scene& scene_;
   const SpanningTree& tree_;
   const Settings& settings_;
+  double tolerance_;
   std::string out_;
 };
 
@@ -378,8 +379,8 @@ std::string mjcf_mesh(const Convex& convex, const std::string& name) {
   return fmt::format("<mesh name=\"{}\" vertex=\"{}\"/>\n", name, points);
 }
 
-std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings) {
-  return Writer(scene, tree, settings).text();
+std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings, double tolerance) {
+  return Writer(scene, tree, settings, tolerance).text();
 }
 
 }  // namespace rigor

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "adapters/common/spanning_tree.h"
+#include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
@@ -62,6 +63,7 @@ struct MjcfLoop {
 };
 MjcfLoop mjcf_loop(const Joint& joint);
 
-std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings);
+std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings,
+                        double tolerance = kMujocoTolerance);
 
 }  // namespace rigor

@@ -92,7 +92,7 @@ std::vector<std::string> mujoco3_calls(const Settings& settings, const std::stri
   Settings halved = settings;
   if (is_named(settings, kMujocoContactMargin))
     halved.options[kMujocoContactMargin.name] = fmt::format("{}", number_option(settings, kMujocoContactMargin) / 2);
-  return mujoco_calls(halved, dt);
+  return mujoco_calls(halved, dt, kMujoco3Tolerance);
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ Mujoco3Engine::Mujoco3Engine(const std::string& folder) : ProcessEngine(start_of
 
 WorldTerms Mujoco3Engine::terms_of(const Scene& scene, const Settings& settings) const {
   const SpanningTree tree = spanning_tree(scene);
-  Json mjcf = {{"text", mujoco_mjcf(scene, tree, settings)},
+  Json mjcf = {{"text", mujoco_mjcf(scene, tree, settings, kMujoco3Tolerance)},
                {"contacts", values_json(mujoco_contact_values(settings))},
                {"stiff", settings.track == Track::matched ? values_json(mujoco_stiff_values()) : Json::array()},
                {"inertias", Json::array()},

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -28,7 +27,7 @@ struct Region {
 
   // m, how far the foot of a point is from the border; negative outside. Exact for a convex region, and less elsewhere.
   double inside(const Vec3& p) const {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kEndless;
     for (const Side& side : border) least = std::min(least, side.inwards.dot(p - side.from));
     return least;
   }
@@ -66,9 +65,7 @@ std::optional<Region> ground_of(const Body& body, const Vec3& gravity) {
     });
   };
   std::optional<Region> best;
-  const auto rank = [&](const Region& region) {
-    return std::pair(-region.plane.normal.dot(gravity), region.area);
-  };
+  const auto rank = [&](const Region& region) { return std::pair(-region.plane.normal.dot(gravity), region.area); };
   for (const auto& [patch, region] : regions_of(*on->surface, pose)) {
     if (lies_behind(region.plane) && (!best || rank(region) > rank(*best))) best = region;
   }
@@ -87,13 +84,45 @@ class OverGround : public Truth {
         out.set_body(i, {body.position, body.orientation, Vec3::Zero(), Vec3::Zero()});
     }
   }
-  double error(double t) const override { return on_plane_->error(t); }
-  std::string caveat() const override { return on_plane_->caveat(); }
+  double error(double t) const override { return t < end_ ? on_plane_->error(t) : kEndless; }
+  std::string caveat() const override {
+    const std::string own = on_plane_->caveat();
+    return own.empty() || why_.empty() ? own + why_ : own + " " + why_;
+  }
+  void end_at(double t, std::string why) { end_ = t, why_ = std::move(why); }
 
  private:
   Scene scene_;
   std::unique_ptr<Truth> on_plane_;
+  double end_ = kEndless;  // s
+  std::string why_;
 };
+
+struct Ground {
+  std::size_t body;
+  Region region;
+};
+
+std::vector<Ground> grounds_of(const Scene& scene) {
+  std::vector<Ground> grounds;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (auto region = ground_of(scene.bodies[i], scene.gravity)) grounds.push_back({i, std::move(*region)});
+  }
+  return grounds;
+}
+
+// "'ball' is at the border of the flat part of 'ground'"; empty if none is.
+std::string at_a_border(const Scene& scene, const std::vector<Ground>& grounds, BodyColumns bodies) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.fixed || !body.collides) continue;
+    for (const Ground& ground : grounds) {
+      if (ground.region.inside(bodies.position(i)) < bounding_radius(*body.shape))
+        return fmt::format("'{}' is at the border of the flat part of '{}'", body.name, scene.bodies[ground.body].name);
+    }
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -109,27 +138,18 @@ Scene on_planes(const Scene& scene) {
 }
 
 std::unique_ptr<Truth> truth_over_ground(const Scene& scene, std::unique_ptr<Truth> on_plane, double duration) {
-  std::vector<std::pair<std::size_t, Region>> grounds;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (auto ground = ground_of(scene.bodies[i], scene.gravity)) grounds.emplace_back(i, std::move(*ground));
-  }
+  const std::vector<Ground> grounds = grounds_of(scene);
   if (grounds.empty()) return on_plane;
   auto truth = std::make_unique<OverGround>(scene, std::move(on_plane));
   BodyTable bodies(scene.bodies.size());
   for (int k = 0; k <= kInstants; ++k) {
     const double t = duration * k / kInstants;
     truth->at(t, bodies.columns());
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const Body& body = scene.bodies[i];
-      if (body.fixed || !body.collides) continue;
-      for (const auto& [number, ground] : grounds) {
-        if (ground.inside(std::as_const(bodies).columns().position(i)) >= bounding_radius(*body.shape)) continue;
-        throw InputError(fmt::format(
-            "at {:.3g} s '{}' comes to the border of the flat part of '{}', where no truth knows its motion; allowed: a "
-            "shorter run, a larger '{}', or 'none'",
-            t, body.name, scene.bodies[number].name, scene.bodies[number].name));
-      }
-    }
+    const std::string who = at_a_border(scene, grounds, std::as_const(bodies).columns());
+    if (who.empty()) continue;
+    if (k == 0) throw InputError(fmt::format("{} from the start; allowed: a larger one, or the truth 'none'", who));
+    truth->end_at(t, fmt::format("From {:.3g} s on {}, where its motion is not known.", t, who));
+    break;
   }
   return truth;
 }

@@ -4,7 +4,7 @@
 //
 //   point on a triangle; peak on a face; ridge across an edge; with a radius also point and edge on a ridge or a peak
 //
-// Only ridges and peaks, which stick out, touch by themselves. A triangle counts only for bodies whose centre is in
+// Only ridges and peaks, which stick out, touch by themselves. A feature counts only for bodies whose centre is in
 // front of it: the back of a thin wall is not an overlap.
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,7 @@ namespace {
 constexpr double kOnTriangle = 1e-9;  // of the triangle's size: a point on the seam of two triangles is on one at least
 constexpr double kAcross = 1e-9;      // the sine between lines that cross
 constexpr double kSlop = 0.02;        // of the inradius: of two overlaps that differ by more, the shallower one is real
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
 
@@ -45,7 +46,6 @@ struct Touch {
   double gap;   // m
   std::uint32_t feature;
   int patch;  // the flat region on which it lies; with a number beyond all of these for a ridge or peak
-  int of;     // the point of the shape, or the peak, of which only the shallowest overlap is real; -1: none
 };
 
 class OnSurface {
@@ -66,7 +66,6 @@ class OnSurface {
       for (const int peak : surface_.peaks_of[index_of(t)]) on_peak(peak);
       for (const int ridge : surface_.ridges_of[index_of(t)]) on_ridge(ridge);
     }
-    leave_out_false_overlaps();
     return touches_;
   }
 
@@ -74,9 +73,9 @@ class OnSurface {
   const Vec3& point(int i) const { return surface_.points[index_of(i)]; }
   int beyond_patches(int which) const { return static_cast<int>(surface_.triangles.size()) + which; }
 
-  void add(const Vec3& normal, const Vec3& foot, double gap, std::uint32_t feature, int patch, int of) {
+  void add(const Vec3& normal, const Vec3& foot, double gap, std::uint32_t feature, int patch) {
     if (gap > reach_) return;
-    touches_.push_back({normal, foot, gap, feature, patch, of});
+    touches_.push_back({normal, foot, gap, feature, patch});
   }
 
   bool is_inside(const TriangleSurface::Triangle& triangle, const Vec3& foot) const {
@@ -96,12 +95,14 @@ class OnSurface {
       if (gap > reach_) continue;
       const Vec3 foot = shape_.points[i] - height * n;
       if (!is_inside(triangle, foot)) continue;
+      // A point a little way into the side of a step is deep below its top, too; one beyond a thin ridge is behind it.
+      if (height < -slop() && -height > nearest_to(shape_.points[i]) + slop()) continue;
       const auto number = static_cast<std::uint32_t>(i);
       const std::uint32_t feature = number ^ 0x9E3779B1u * static_cast<std::uint32_t>(triangle.patch);
       const bool is_known = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
         return touch.feature == feature && touch.patch == triangle.patch;
       });
-      if (!is_known) add(n, foot, gap, feature, triangle.patch, static_cast<int>(i));
+      if (!is_known) add(n, foot, gap, feature, triangle.patch);
     }
   }
 
@@ -144,18 +145,20 @@ class OnSurface {
   void ball_on(const Vec3& foot, const Vec3& centre, std::uint32_t feature, int patch, const IsOut& is_out) {
     const Vec3 line = centre - foot;
     const double distance = line.norm();
-    if (distance > 0 && is_out(line / distance))
-      add(line / distance, foot, distance - shape_.radius, feature, patch, -1);
+    if (distance > 0 && is_out(line / distance)) add(line / distance, foot, distance - shape_.radius, feature, patch);
   }
 
   void peak_on_faces(int number, const TriangleSurface::Peak& peak, const Vec3& q, std::uint32_t tag) {
     const PlacedHull& hull = *shape_.faces;
+    const auto gap_of = [&](std::size_t f) { return hull.normals[f].dot(q) - hull.offsets[f]; };
+    const double most = most_above(q);
     for (std::size_t f = 0; f < hull.normals.size(); ++f) {
-      const double gap = hull.normals[f].dot(q) - hull.offsets[f];
-      if (gap > reach_ || !points_out_of(peak, -hull.normals[f])) continue;
+      const double gap = gap_of(f);
+      if (gap > reach_ || gap < most - slop() || !points_out_of(peak, -hull.normals[f]) ||
+          !(hull.normals[f].dot(shape_.centre - q) < 0))
+        continue;
       if (!is_over(hull, f, q - gap * hull.normals[f])) continue;
-      add(-hull.normals[f], q, gap, tag ^ static_cast<std::uint32_t>(f), patch_beside(peak, -hull.normals[f], number),
-          -2 - number);
+      add(-hull.normals[f], q, gap, tag ^ static_cast<std::uint32_t>(f), patch_beside(peak, -hull.normals[f], number));
     }
   }
 
@@ -204,14 +207,33 @@ class OnSurface {
     if (!(length > kAcross * u.norm() * v.norm())) return;
     for (const double side : {1.0, -1.0}) {
       const Vec3 n = side / length * across;
-      if (!points_out_of(ridge, n) || !points_out_of(edge, -n)) continue;
+      if (!points_out_of(ridge, n) || !points_out_of(edge, -n) || !(n.dot(shape_.centre - from) > 0)) continue;
       const Vec3 line = start - from;
       const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), both = uu * vv - uv * uv;
       const double s = (vv * u.dot(line) - uv * v.dot(line)) / both, t = (uv * u.dot(line) - uu * v.dot(line)) / both;
       if (s < 0 || s > 1 || t < 0 || t > 1) continue;
+      if (n.dot(start + t * v - from - s * u) < -slop() && is_false_overlap(from + s * u, start + t * v)) continue;
       add_crossing(ridge, n, from + s * u, start + t * v, feature, own_patch);
     }
   }
+
+  // Whether two edges that have passed each other are not inside each other: then they lie on different sides of a
+  // body.
+  bool is_false_overlap(const Vec3& foot, const Vec3& own) const {
+    if (shape_.faces && most_above(foot) > 0) return true;
+    return (own - foot).norm() > nearest_to(own) + slop();
+  }
+
+  // m, of a point above the faces of a hull; negative inside.
+  double most_above(const Vec3& q) const {
+    const PlacedHull& hull = *shape_.faces;
+    double most = -kFar;
+    for (std::size_t f = 0; f < hull.normals.size(); ++f)
+      most = std::max(most, hull.normals[f].dot(q) - hull.offsets[f]);
+    return most;
+  }
+
+  double slop() const { return kSlop * shape_.inradius; }
 
   // An edge that lies nearly flat on one of the triangles belongs to its region, and has its normal.
   void add_crossing(const TriangleSurface::Ridge& ridge, const Vec3& n, const Vec3& foot, const Vec3& own,
@@ -219,23 +241,29 @@ class OnSurface {
     for (const int t : {ridge.left, ridge.right}) {
       const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
       if (triangle.normal.dot(n) > 0 && triangle.normal.cross(n).norm() < kNearlyFlat)
-        return add(triangle.normal, foot, triangle.normal.dot(own - foot) - shape_.radius, feature, triangle.patch, -1);
+        return add(triangle.normal, foot, triangle.normal.dot(own - foot) - shape_.radius, feature, triangle.patch);
     }
-    add(n, foot, n.dot(own - foot) - shape_.radius, feature, own_patch, -1);
+    add(n, foot, n.dot(own - foot) - shape_.radius, feature, own_patch);
   }
 
-  // A corner that has gone into a step a little is deep below the step's top, too. Only its shallowest overlap is real.
-  void leave_out_false_overlaps() {
-    const double slop = kSlop * shape_.inradius;
-    const auto is_false = [&](const Touch& touch) {
-      if (touch.of == -1 || touch.gap > -slop) return false;
-      return std::any_of(touches_.begin(), touches_.end(),
-                         [&](const Touch& other) { return other.of == touch.of && other.gap > touch.gap + slop; });
-    };
-    std::vector<Touch> real;
-    std::copy_if(touches_.begin(), touches_.end(), std::back_inserter(real),
-                 [&](const Touch& touch) { return !is_false(touch); });
-    touches_.swap(real);
+  // m, from a point to the nearest triangle.
+  double nearest_to(const Vec3& p) const {
+    double least = kFar;
+    for (const int t : near_) least = std::min(least, distance(p, t));
+    return least;
+  }
+
+  double distance(const Vec3& p, int t) const {
+    const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
+    const double height = triangle.normal.dot(p - point(triangle.corners[0]));
+    if (is_inside(triangle, p - height * triangle.normal)) return std::abs(height);
+    double least = kFar;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &from = point(triangle.corners[k]), side = point(triangle.corners[(k + 1) % 3]) - from;
+      const Vec3 at = from + std::clamp(side.dot(p - from) / side.squaredNorm(), 0.0, 1.0) * side;
+      least = std::min(least, (p - at).norm());
+    }
+    return least;
   }
 
   const TriangleSurface& surface_;

@@ -48,8 +48,9 @@ struct Nearest {
   Vec3 at = Vec3::Zero();
 };
 
-// Among all parts of the simplex, the one whose nearest point lies inside it and is nearest to the origin.
-Nearest nearest_of(const std::vector<Difference>& simplex) {
+// Among all parts of the simplex, the one whose nearest point lies inside it and is nearest to the origin. `touching`:
+// m², the square of a distance that counts as none.
+Nearest nearest_of(const std::vector<Difference>& simplex, double touching) {
   Nearest best;
   double least = std::numeric_limits<double>::infinity();
   for (unsigned chosen = 1; chosen < 1u << simplex.size(); ++chosen) {
@@ -70,6 +71,8 @@ Nearest nearest_of(const std::vector<Difference>& simplex) {
     if (!std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; })) continue;
     Vec3 at = Vec3::Zero();
     for (std::size_t k = 0; k < corners.size(); ++k) at += weights[k] * corners[k].at;
+    // A tetrahedron that holds the origin has no distance from it. A flat one is a part too many: its triangles tell.
+    if (count == 3 && at.squaredNorm() > touching) continue;
     if (at.squaredNorm() < least) least = at.squaredNorm(), best = {corners, weights, at};
   }
   return best;
@@ -202,12 +205,12 @@ std::vector<Difference> completed(std::vector<Difference> simplex, const Pair& p
 
 ConvexGap convex_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const Pair pair(a, pose_a, b, pose_b);
+  const double touching = kDistanceConverged * pair.size() * pair.size();
   std::vector<Difference> simplex = {pair.furthest(-pair.between())};
   for (int round = 0; round < kMostDistanceRounds; ++round) {
-    const Nearest nearest = nearest_of(simplex);
+    const Nearest nearest = nearest_of(simplex, touching);
     const double square = nearest.at.squaredNorm();
-    if (nearest.corners.size() == 4 && square <= kDistanceConverged * pair.size() * pair.size())
-      return Polytope(pair, nearest.corners).expand();
+    if (nearest.corners.size() == 4) return Polytope(pair, nearest.corners).expand();
     // The origin lies on a part of the simplex: the shapes touch, or overlap in a special way.
     if (square <= kDistanceConverged * kDistanceConverged * pair.size() * pair.size())
       return Polytope(pair, completed(nearest.corners, pair)).expand();

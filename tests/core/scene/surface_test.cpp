@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -70,7 +71,11 @@ BOOST_AUTO_TEST_CASE(a_mesh_of_a_box_has_its_volume_and_moments_edges_and_corner
 }
 
 BOOST_AUTO_TEST_CASE(a_search_finds_the_triangles_that_a_look_at_all_finds) {
-  const auto surface = surface_of(triangles_of(unit_ball(), Vec3(1, 2, 3)));
+  std::vector<std::vector<double>> heights(30, std::vector<double>(20));
+  for (std::size_t i = 0; i < 30; ++i)
+    for (std::size_t k = 0; k < 20; ++k)
+      heights[i][k] = std::sin(0.7 * static_cast<double>(i)) + 0.1 * static_cast<double>(k);
+  const auto surface = height_surface({3, 4}, heights);
   for (int k = 0; k < 50; ++k) {
     const Vec3 low(0.02 * k - 0.6, 0.03 * k - 1, 0.5 - 0.04 * k), high = low + Vec3(0.1, 0.3, 0.2);
     std::vector<int> found, expected;

@@ -110,26 +110,33 @@ BOOST_AUTO_TEST_CASE(round_shapes_are_as_far_from_a_mesh_of_a_box_as_from_the_bo
   BOOST_TEST(apart > 1000);
 }
 
-// Two polyhedra touch with a corner on a face or with two edges. What is found is never nearer than they are, and is
-// their distance unless a corner is nearest to a corner or to an edge, which no touch begins with.
+// Two polyhedra touch with a corner on a face or with two edges. What is found is never nearer than they are, and often
+// their distance. It is none where a corner is nearest to a corner or to an edge; such a pair is found once it
+// overlaps.
 BOOST_AUTO_TEST_CASE(polyhedra_meet_a_mesh_of_a_box_as_they_meet_the_box) {
   Random random;
   const Vec3 size(0.8, 0.5, 0.6);
   const Shape mesh = mesh_of_box(size), box = Box{size};
+  // m; and what a normal does that takes the place of one up to a hundredth of a radian aside
+  constexpr double kNear = 1e-3, kTurned = kNear * 0.5 * kNearlyFlat * kNearlyFlat + 1e-9;
   int same = 0, all = 0;
   for (const Shape& shape : {shapes()[0], shapes()[2]}) {
     for (int k = 0; k < 1000; ++k) {
       Pose at{random.vector(1), random.turn()};
       const double far = convex_distance(shape, at, box, {}).gap;
       if (far < 0.05) continue;
-      at.p -= (far - 1e-3) * convex_distance(shape, at, box, {}).normal;  // towards the box, along the shortest way
+      const Vec3 shortest = convex_distance(shape, at, box, {}).normal;
+      at.p -= (far - kNear) * shortest;
       const double expected = convex_distance(shape, at, box, {}).gap, found = least_gap(shape, at, mesh, {});
-      ++all, same += std::abs(found - expected) < 1e-8;
-      BOOST_TEST(found > expected - 1e-8);
+      ++all, same += std::abs(found - expected) < kTurned;
+      BOOST_TEST(found > expected - kTurned);
+      at.p -= 2 * kNear * shortest;
+      const double overlap = least_gap(shape, at, mesh, {});
+      BOOST_TEST((overlap < 0 && overlap > -4 * kNear), overlap << " " << convex_distance(shape, at, box, {}).gap);
     }
   }
   BOOST_TEST(all > 500);
-  BOOST_TEST(same > 0.6 * all);
+  BOOST_TEST(same > 0.4 * all);
 }
 
 // Of a corner a little way into a step, the side of the step is real, and the depth below its top is not.

@@ -92,6 +92,31 @@ const std::vector<Refusal> kBadBodies = {
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'ellipsoid', radius = 1 }",
      "3:31: scene.body.shape.radius: an ellipsoid has no such key",
      {}},
+    {"[[scene.body]]\nname = 'a'\nmass = 1\nfixed = false\nshape = { type = 'heightfield', size = [1, 1], heights = "
+     "[[0, 0], "
+     "[0, 0]] }",
+     "4:9: scene.body.fixed: ",
+     {"a heightfield never moves"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'heightfield', size = [1, -1], heights = [[0, 0], [0, 0]] }",
+     "3:40: scene.body.shape.size: ",
+     {"not greater than 0"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'heightfield', size = [1, 1], heights = [[0, 0], [0]] }",
+     "3:58: scene.body.shape.heights: ",
+     {"row 2 has 1 heights, and row 1 has 2"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'heightfield', size = [1, 1], heights = [0, 0] }",
+     "3:59: scene.body.shape.heights[0]: ",
+     {"a row of heights"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'mesh', points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "
+     "triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2]] }",
+     "3:35: scene.body.shape.points: ",
+     {"the mesh is open"}},
+    {"[[scene.body]]\nname = 'a'\nshape = { type = 'mesh', points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "
+     "triangles = [[0, 2, 1.5]] }",
+     "3:94: scene.body.shape.triangles[0]: ",
+     {"found 1.5", "three whole numbers"}},
+    {"[[scene.body]]\nname = 'a'\nshapes = [{ type = 'mesh', file = '../ground.obj' }]",
+     "3:35: scene.body.shapes[0].file: ",
+     {}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex' }", "3:9: scene.body.shape.points: missing", {}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'convex', points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }",
      "3:37: scene.body.shape.points: ",
@@ -115,13 +140,14 @@ const std::vector<Refusal> kBadBodies = {
     {"[[scene.body]]\nname = 'a'\nshape = {}", "3:9: scene.body.shape.type: missing", {}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'shpere' }",
      "3:18: scene.body.shape.type: ",
-     {"found 'shpere'", "'sphere'", "box, capsule, convex, cylinder, ellipsoid, plane, sphere"}},
+     {"found 'shpere'", "'sphere'", "box, capsule, convex, cylinder, ellipsoid, heightfield, mesh, plane, sphere"}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'sphere', radiu = 1 }",
      "3:28: scene.body.shape.radiu: unknown key",
      {"'radius'"}},
     {"[[scene.body]]\nname = 'a'\nshape = { sphere = 1 }",
      "3:11: scene.body.shape.sphere: unknown key",
-     {"allowed: type, size, position, orientation_wxyz, radius, length, points, file, scale, radii, normal, offset"}},
+     {"allowed: type, size, position, orientation_wxyz, radius, length, points, file, scale, radii, heights, "
+      "triangles, normal, offset"}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'sphere' }", "3:9: scene.body.shape.radius: missing", {}},
     {"[[scene.body]]\nname = 'a'\nshape = { type = 'sphere', size = [1, 1, 1] }",
      "3:28: scene.body.shape.size: a sphere has no such key",
@@ -258,6 +284,21 @@ BOOST_AUTO_TEST_CASE(a_hull_is_read_from_a_file_beside_the_case) {
   const TomlFile file = TomlFile::parse(text, (folder.path / "case.toml").string());
   const Scene scene = read_scene(file.root({"scene"}).at("scene"));
   BOOST_TEST(std::get<Convex>(*scene.bodies[0].shape).volume() == 1, boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(a_mesh_and_heights_are_read_for_bodies_that_stand) {
+  const Folder folder;
+  folder.write("ramp.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::string text =
+      "scene.body = [{ name = 'a', position = [1, 2, 3], shape = { type = 'mesh', file = 'ramp.obj', scale = 0.5 } }, "
+      "{ name = 'b', shape = { type = 'heightfield', size = [2, 1], heights = [[0, 1, 0], [0, 2, 0]] } }]";
+  const TomlFile file = TomlFile::parse(text, (folder.path / "case.toml").string());
+  const Scene scene = read_scene(file.root({"scene"}).at("scene"));
+  BOOST_TEST((scene.bodies[0].fixed && scene.bodies[1].fixed && scene.bodies[0].collides));
+  BOOST_TEST(volume_of(*scene.bodies[0].shape) == 1.0 / 6, boost::test_tools::tolerance(1e-14));
+  const auto& field = std::get<Heightfield>(*scene.bodies[1].shape);
+  BOOST_TEST((field.surface->points[4] == Vec3(0, 0.5, 2)));  // the middle of the second row
+  BOOST_TEST(field.surface->triangles.size() == 4u);
 }
 
 BOOST_AUTO_TEST_CASE(an_inertia_may_touch_the_triangle_inequality) {

@@ -8,6 +8,7 @@ const width = 340,
   height = 210,
   margin = 16,
   mostBodies = 400,
+  mostFacets = 2000,
   fewNames = 4;
 
 
@@ -90,6 +91,7 @@ class Sketch {
         svg("polyline", { class: `capsule-${layer} ${kind}`, points: text(ends), "stroke-width": thick - 3 * i }),
       );
     }
+    if (shape.triangles) return this.facets(shape, kind);
     if (shape.type !== "box") return null;
     const corners = [];
     for (const i of [-1, 1]) for (const j of [-1, 1]) for (const k of [-1, 1]) corners.push([i, j, k]);
@@ -105,6 +107,16 @@ class Sketch {
       svg("polygon", { class: kind, points: text(hull(flat)) }),
       edges.map(([i, j]) => svg("line", { class: "inner", x1: flat[i][0], y1: flat[i][1], x2: flat[j][0], y2: flat[j][1] })),
     ];
+  }
+
+  // The triangles of a hull or a surface, the farthest first.
+  facets(shape, kind) {
+    const corners = shape.points.map((p) => this.point(shape.index, p)),
+      away = (triangle) => triangle.reduce((sum, k) => sum + this.depth(corners[k]), 0);
+    return [...shape.triangles]
+      .sort((a, b) => away(b) - away(a))
+      .slice(0, mostFacets)
+      .map((triangle) => svg("polygon", { class: `facet ${kind}`, points: text(triangle.map((k) => this.at(corners[k]))) }));
   }
 
   // A line with hatching on the solid side; nothing for a plane that faces the reader.
