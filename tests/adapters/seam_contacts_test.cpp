@@ -20,6 +20,24 @@ struct Resting {
 // The detector that DART ships with: a ball of triangles rests lower, and hops from one to the next.
 bool has_spheres_of_meshes(const Run& run) { return run.info.name == "dart" && run.settings.track == Track::stock; }
 
+Heightfield flat_ground() {
+  Heightfield field;
+  field.size = {4, 4}, field.heights.assign(9, std::vector<double>(9, 0.0));
+  field.surface = height_surface(field.size, field.heights);
+  return field;
+}
+
+// 4 by 4 by 0.4 m, of twelve triangles.
+Mesh slab() {
+  const TriangleMesh cube = unit_cube();
+  std::vector<Vec3> points;
+  std::vector<Corners> corners;
+  for (const Vec3& point : cube.points) points.push_back(point.cwiseProduct(Vec3(4, 4, 0.4)));
+  for (std::size_t k = 0; k < cube.corners.size(); k += 3)
+    corners.push_back({cube.corners[k], cube.corners[k + 1], cube.corners[k + 2]});
+  return {{closed_surface(points, corners)}};
+}
+
 // Each pair of shapes, the lower one fixed, the upper one balanced above it.
 std::vector<Resting> resting_pairs() {
   const Sphere sphere{0.5};
@@ -44,6 +62,10 @@ std::vector<Resting> resting_pairs() {
                                       {box, sphere, 1},       {sphere, sphere, 1}, {capsule, sphere, 1.5},
                                       {sphere, capsule, 1.5}, {box, capsule, 1.5}, {capsule, capsule, 2}};
   pairs.insert(pairs.end(), basic.begin(), basic.end());
+  for (const auto& [above, height] : {std::pair<Shape, double>{sphere, 0.5}, {box, 0.5}, {capsule, 1}, {cube, 0.5}}) {
+    pairs.push_back({above, flat_ground(), height});
+    pairs.push_back({above, slab(), height + 0.2});
+  }
   return pairs;
 }
 
@@ -55,7 +77,8 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
   for (const Resting& pair : resting_pairs()) {
     Scene scene;
     scene.gravity = {0, 0, -g};
-    scene.bodies = {two_kilograms("above", pair.above, {0, 0, pair.height + drop}), two_kilograms("below", pair.below, Vec3::Zero())};
+    scene.bodies = {two_kilograms("above", pair.above, {0, 0, pair.height + drop}),
+                    two_kilograms("below", pair.below, Vec3::Zero())};
     scene.bodies[1].fixed = true;
     const Feature feature = contact_feature(pair.above, pair.below);
     for (const Run& run : all_runs()) {
@@ -156,7 +179,8 @@ BOOST_AUTO_TEST_CASE(a_fixed_body_lies_as_it_is_turned) {
   const Quat tilted = rotation_by({0, angle, 0});
   Scene scene;
   scene.gravity = {0, 0, -g};
-  scene.bodies = {two_kilograms("ball", Sphere{r}, tilted * Vec3(0, 0, 0.5 + r)), two_kilograms("slope", Box{{4, 4, 1}}, Vec3::Zero())};
+  scene.bodies = {two_kilograms("ball", Sphere{r}, tilted * Vec3(0, 0, 0.5 + r)),
+                  two_kilograms("slope", Box{{4, 4, 1}}, Vec3::Zero())};
   scene.bodies[1].fixed = true, scene.bodies[1].orientation = tilted;
   scene.contact_default = {0, 0};
   for_each_run(scene, dt, [&](const Run& run) {
