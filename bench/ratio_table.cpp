@@ -101,6 +101,9 @@ std::vector<RatioRow> all_rows() {
   add_pair(rows, "pile", 216, impulse + ",substeps=2", quick, 4, 5);  // no deeper in each other than the others' bodies
   add_optional(rows, "pile", 216, impulse, 4);
   add_pair(rows, "pyramid", 1240, impulse, quick, 4, 3);
+  add_pair(rows, "balls-on-hills", 216, impulse, quick, 0, 0);
+  rows.push_back({title("hulls", 216, impulse) + " against Bullet", step("hulls", 216, impulse),
+                  step("hulls", 216, kBullet), Kind::times_as_fast, 3});
   rows.push_back({"pile, a ball of N = 8000 against one of N = 1000", step("pile", 8000, impulse),
                   step("pile", 1000, impulse), Kind::at_most_times, 1.35});
   add_joints(rows);

@@ -127,6 +127,46 @@ Scene pile(const SceneRow&, int count) {
   return scene;
 }
 
+// The same cube of spheres over a hollow of 2,048 triangles with waves on its sides.
+Scene balls_on_hills(const SceneRow& row, int count) {
+  Scene scene = pile(row, count);
+  Heightfield hills;
+  hills.size = {6, 6};  // m
+  constexpr std::size_t kRows = 33;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    std::vector<double>& heights = hills.heights.emplace_back();
+    for (std::size_t k = 0; k < kRows; ++k) {
+      const double x = 6 * (static_cast<double>(k) / (kRows - 1) - 0.5),
+                   y = 6 * (static_cast<double>(i) / (kRows - 1) - 0.5);
+      heights.push_back(0.2 * (x * x + y * y) + 0.05 * std::sin(4 * x) * std::cos(5 * y));
+    }
+  }
+  hills.surface = height_surface(hills.size, hills.heights);
+  Body& ground = scene.bodies.back();
+  ground.shape = hills, ground.position = {0.5, 0.5, -0.4};
+  return scene;
+}
+
+// A cube of rocks with 32 corners each, all alike, turned in different ways.
+Scene hulls(const SceneRow& row, int count) {
+  Scene scene = pile(row, count);
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 32; ++k) {  // a spiral on the sphere, a little uneven
+    const double z = 1 - (2 * k + 1) / 32.0, around = 2.399963 * k, r = std::sqrt(1 - z * z);
+    corners.push_back((0.1 + 0.003 * std::sin(7.0 * k)) * Vec3(r * std::cos(around), r * std::sin(around), z));
+  }
+  const Convex rock{hull_of(corners)};
+  for (Body& body : scene.bodies) {
+    if (body.fixed) continue;
+    body.shape = rock;
+    body.inertia = inertia_of(rock, body.mass);
+    body.orientation =
+        rotation_by(Vec3(1.7, 0.9, -1.1) * std::sin(1.0 + static_cast<double>(&body - scene.bodies.data())));
+    body.position *= 1.1;
+  }
+  return scene;
+}
+
 // A square pyramid of boxes, each layer one box narrower than the one below; 15 layers are 1,240 boxes.
 Scene pyramid(const SceneRow&, int count) {
   Scene scene;
@@ -250,12 +290,14 @@ Scene quadrupeds(const SceneRow&, int count) { return many_of("robots/quadruped-
 const std::vector<SceneRow>& scenes() {
   constexpr double kFine = 1.0 / 240, kCourse = 1.0 / 30, kPile = 1.0 / 120;
   static const std::vector<SceneRow> table = {
+      {"balls-on-hills", {216}, kPile, Reached::penetration, false, balls_on_hills},
       {"ballistic/projectile", {1}, kCourse, Reached::trajectory, false, of_the_suite},
       {"bouncing-spheres", {1, 100, 1000, 10000}, kFine, Reached::energy, false, bouncing_spheres},
       {"chain", {1, 10, 95, 100, 1000}, kFine, Reached::joint_gap, false, joint_chain},
       {"contact/collision", {1}, kCourse, Reached::energy, false, of_the_suite},
       {"four-bars", {21, 81}, kFine, Reached::joint_gap, false, four_bars},
       {"free-bodies", {1, 10, 100, 1000, 10000, 100000, 1000000}, kFine, Reached::trajectory, true, free_bodies},
+      {"hulls", {216}, kPile, Reached::penetration, false, hulls},
       {"humanoids", {12, 1200}, kFine, Reached::gap_and_overlap, false, humanoids},
       {"pile", {216, 1000, 8000}, kPile, Reached::penetration, false, pile},
       {"pyramid", {1240}, kPile, Reached::penetration, false, pyramid},

@@ -2,7 +2,7 @@
 // node force_page_test.mjs REPORT.html RESULTS.json SHOTS-FOLDER
 import { setTimeout as sleep } from "node:timers/promises";
 import { Browser } from "./browser.mjs";
-import { check, equal, expect, loaded, open, quiet, shoot, summed } from "./report_page.mjs";
+import { check, equal, expect, loaded, open, quiet, ready, results, shoot, summed } from "./report_page.mjs";
 
 const id = "forces-of-contact/box-at-rest",
   weight = 98.1; // N
@@ -30,6 +30,22 @@ try {
     await browser.keys("e");
     equal(await pressed(), "true", "the flag of the forces");
     await quiet(browser);
+  });
+  await check("the first screen says whose contact forces explain the motion", async () => {
+    await open(browser, "");
+    await ready(browser);
+    const shown = await browser.run(`return [...document.querySelectorAll('.trust tr[data-engine]')].map((row) =>
+      [row.dataset.engine, row.querySelector('td').textContent])`);
+    equal(shown.map(([name]) => name).sort().join(), "bullet,ode", "engines");
+    for (const [name, text] of shown) {
+      const found = results.cells.filter((c) => c.case === id && c.engine === name).map((c) => c.metrics.contact_balance.value / weight);
+      const worst = Math.max(...found),
+        [sign, share] = [text[0], text.slice(2)];
+      equal(sign, worst <= 1e-6 ? "✓" : worst <= 1e-3 ? "≈" : "✕", `the sign of ${name}`);
+      const told = Number(share.replace(" %", "").replace(/·10(.*)/, (_, power) => "e" + [...power].map((c) => (c === "⁻" ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c))).join("")).replace("≈ 0", "0"));
+      expect(Math.abs(told - 100 * worst) <= 0.06 * 100 * worst + 1e-9, `${name}: ${share} is not ${100 * worst} %`);
+    }
+    await shoot(browser, "trust");
   });
   await check("a case without reported forces has neither the flag nor the plot", async () => {
     await open(browser, "#/springs/fixed-spring?dt=1/30");

@@ -2,6 +2,7 @@
 import { judgement, metricOf } from "./data.js";
 import { afterFirstPaint, el, replace, tableHead } from "./dom.js";
 import { EngineCards } from "./engine_cards.js";
+import { forceTrust } from "./force_trust.js";
 import { digits, quantity, words } from "./format.js";
 import { cheapest, curvesOf, engineOf, families, isCoreMethod, isExternal, isReference, isTimed } from "./frontier.js";
 import { FrontierChart, lengthOrAngle } from "./frontier_chart.js";
@@ -60,6 +61,7 @@ export class Overview {
       root,
       (results.not_the_same_robot ?? []).map((text) => el("p.other-robot", {}, text)),
       this.answer,
+      forceTrust(results),
       this.hasCurves ? el("div.first", {}, this.chart.root, this.cards.root) : null,
       this.meanings(),
       problems(results),

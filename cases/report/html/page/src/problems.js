@@ -14,6 +14,7 @@ const headlines = {
   energy: "Energy that is lost or gained",
   friction: "Friction that depends on direction",
   impacts: "Bounces and overlaps that do not converge",
+  "contact-forces": "Contact forces that spike, creep or hover",
   joints: "Joints that open",
   stability: "Motions that blow up",
   sampling: "Energy read half a step late",
