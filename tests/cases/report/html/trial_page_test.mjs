@@ -1,7 +1,7 @@
 // The trials of a recording in the report: each can be chosen and played, and every trial's error is a dot.
 // node trial_page_test.mjs REPORT.html RESULTS.json SHOTS-FOLDER
 import { Browser } from "./browser.mjs";
-import { check, clock, equal, expect, hash, loaded, open, quiet, results, shoot, summed } from "./report_page.mjs";
+import { check, clock, equal, expect, loaded, open, quiet, results, shoot, summed } from "./report_page.mjs";
 
 const id = "reality/synthetic-tosses",
   cells = results.cells.filter((cell) => cell.case === id && cell.dt === "1/296"),
@@ -44,7 +44,7 @@ try {
     await browser.run("[...document.querySelectorAll('.trial-spread circle')].find((dot) => dot.dataset.trial === arguments[0]).dispatchEvent(new MouseEvent('click', {bubbles: true}))", names[3]);
     await shown(names[3]);
     equal(await played(), names[3], "the trial");
-    expect((await hash(browser)).includes(`trial=${names[3]}`), "the address names the trial");
+    await browser.until(`location.hash.includes(${JSON.stringify(`trial=${names[3]}`)})`, "the address to name the trial");
     const after = await places();
     equal(after.length, before.length, "lines");
     after.forEach((text, i) => expect(text !== before[i], `line ${i} did not change: ${before} and ${after}`));
