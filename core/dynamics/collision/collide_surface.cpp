@@ -247,24 +247,7 @@ class OnSurface {
   }
 
   // m, from a point to the nearest triangle.
-  double nearest_to(const Vec3& p) const {
-    double least = kFar;
-    for (const int t : near_) least = std::min(least, distance(p, t));
-    return least;
-  }
-
-  double distance(const Vec3& p, int t) const {
-    const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
-    const double height = triangle.normal.dot(p - point(triangle.corners[0]));
-    if (is_inside(triangle, p - height * triangle.normal)) return std::abs(height);
-    double least = kFar;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &from = point(triangle.corners[k]), side = point(triangle.corners[(k + 1) % 3]) - from;
-      const Vec3 at = from + std::clamp(side.dot(p - from) / side.squaredNorm(), 0.0, 1.0) * side;
-      least = std::min(least, (p - at).norm());
-    }
-    return least;
-  }
+  double nearest_to(const Vec3& p) const { return (p - surface_.nearest(p, kFar)).norm(); }
 
   const TriangleSurface& surface_;
   const RoundHull& shape_;
@@ -287,15 +270,12 @@ void add_to(Manifold& out, std::vector<Touch> touches, const Pose& of_surface) {
   }
 }
 
+// `size`: m, of the shape from its centre.
 void collide_round(const RoundHull& shape, double size, const TriangleSurface& surface, const Pose& of_surface,
                    Manifold& out) {
+  if (!surface.nearest(shape.centre, 2 * size).allFinite()) return;  // far away
   OnSurface on(surface, shape);
-  // The surface may be far away: then what comes nearest is still a point.
-  const double farthest = surface.bounding_radius + shape.centre.norm() + size;
-  double reach = size;
-  std::vector<Touch> touches = on.find(reach);
-  while (touches.empty() && reach < farthest) reach *= 4, touches = on.find(reach);
-  add_to(out, std::move(touches), of_surface);
+  add_to(out, on.find(size), of_surface);
 }
 
 Pose seen_from(const Pose& frame, const Pose& pose) {
@@ -318,7 +298,10 @@ void collide_polyhedron(const Polyhedron& a, const Pose& pose_a, const TriangleS
                         Manifold& out) {
   static thread_local PlacedHull placed;
   placed.place(a, seen_from(pose_b, pose_a));
-  collide_round(round_hull_of(placed), a.bounding_radius(), surface, pose_b, out);
+  const RoundHull shape = round_hull_of(placed);
+  double size = 0;
+  for (const Vec3& point : shape.points) size = std::max(size, (point - shape.centre).norm());
+  collide_round(shape, size, surface, pose_b, out);
 }
 
 }  // namespace

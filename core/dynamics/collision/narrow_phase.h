@@ -58,7 +58,8 @@ inline constexpr double kNearlyFlat = 1e-2;  // rad
 // within `reach` [m] it removes these points and returns false.
 bool put_crossing(const ManifoldPoint& crossing, double reach, int first, Manifold& out);
 
-// Every point at which the shapes touch or come closest, however far apart they are. Two planes have none.
+// Every point at which the shapes touch or come closest, however far apart they are. Two planes have none, nor does a
+// shape far from a surface of triangles.
 void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out);
 
 // The harder pairs, in files of their own; normals from the second to the first.
@@ -72,7 +73,7 @@ void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b,
 void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out);
 void collide_cylinder_sphere(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out);
 void collide_ellipsoid_plane(const Ellipsoid& a, const Pose& pose_a, const Plane& b, Manifold& out);
-// Shapes on a surface; only points with a gap of less than the shape's size, if there are such.
+// Shapes on a surface: the points with a gap of at most the shape's size, which is that from its centre to its end.
 void collide_surface(const Box& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);
 void collide_surface(const Capsule& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);
 void collide_surface(const Convex& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);

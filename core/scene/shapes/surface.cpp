@@ -275,27 +275,6 @@ class SurfaceBuilder {
   std::shared_ptr<TriangleSurface> made_ = std::make_shared<TriangleSurface>();
 };
 
-void TriangleSurface::find_near(const Vec3& box_low, const Vec3& box_high, std::vector<int>& out) const {
-  const auto overlaps = [&](const Vec3& its_low, const Vec3& its_high) {
-    return (its_low.array() <= box_high.array()).all() && (box_low.array() <= its_high.array()).all();
-  };
-  static thread_local std::vector<int> open;
-  open.assign(1, 0);
-  while (!open.empty()) {
-    const int at = open.back();
-    const Node& node = nodes[index_of(at)];
-    open.pop_back();
-    if (!overlaps(node.low, node.high)) continue;
-    for (int i = node.first; i < node.first + node.count; ++i) {
-      const int t = order[index_of(i)];
-      const Corners& c = triangles[index_of(t)].corners;
-      const Vec3 &p = points[index_of(c[0])], &q = points[index_of(c[1])], &r = points[index_of(c[2])];
-      if (overlaps(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r))) out.push_back(t);
-    }
-    if (node.count == 0) open.push_back(node.right), open.push_back(at + 1);
-  }
-}
-
 TriangleMesh TriangleSurface::drawn() const {
   TriangleMesh mesh;
   for (const Triangle& triangle : triangles) {

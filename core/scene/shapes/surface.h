@@ -48,6 +48,10 @@ struct TriangleSurface {
 
   // The triangles whose boxes overlap this box.
   void find_near(const Vec3& box_low, const Vec3& box_high, std::vector<int>& out) const;
+  // The nearest point to p. What is farther than `most` [m] may be missed: then the point is infinitely far.
+  Vec3 nearest(const Vec3& p, double most) const;
+  // The nearest point to p of one triangle.
+  Vec3 nearest_on(const Triangle& triangle, const Vec3& p) const;
   TriangleMesh drawn() const;
   void scale(double factor);
 

@@ -51,6 +51,14 @@ std::string refusal_of(const std::vector<std::vector<double>>& heights) {
   return "";
 }
 
+std::shared_ptr<const TriangleSurface> waves() {
+  std::vector<std::vector<double>> heights(30, std::vector<double>(20));
+  for (std::size_t i = 0; i < 30; ++i)
+    for (std::size_t k = 0; k < 20; ++k)
+      heights[i][k] = std::sin(0.7 * static_cast<double>(i)) + 0.1 * static_cast<double>(k);
+  return height_surface({3, 4}, heights);
+}
+
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
@@ -71,11 +79,7 @@ BOOST_AUTO_TEST_CASE(a_mesh_of_a_box_has_its_volume_and_moments_edges_and_corner
 }
 
 BOOST_AUTO_TEST_CASE(a_search_finds_the_triangles_that_a_look_at_all_finds) {
-  std::vector<std::vector<double>> heights(30, std::vector<double>(20));
-  for (std::size_t i = 0; i < 30; ++i)
-    for (std::size_t k = 0; k < 20; ++k)
-      heights[i][k] = std::sin(0.7 * static_cast<double>(i)) + 0.1 * static_cast<double>(k);
-  const auto surface = height_surface({3, 4}, heights);
+  const auto surface = waves();
   for (int k = 0; k < 50; ++k) {
     const Vec3 low(0.02 * k - 0.6, 0.03 * k - 1, 0.5 - 0.04 * k), high = low + Vec3(0.1, 0.3, 0.2);
     std::vector<int> found, expected;
@@ -91,6 +95,25 @@ BOOST_AUTO_TEST_CASE(a_search_finds_the_triangles_that_a_look_at_all_finds) {
     }
     std::sort(found.begin(), found.end());
     BOOST_TEST(found == expected);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_nearest_point_is_that_of_the_nearest_triangle) {
+  const auto surface = waves();
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 p(std::sin(1.3 * k) * 2.5, std::cos(2.1 * k) * 2.5, std::sin(0.7 * k) * 3 + 1);
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& triangle : surface->triangles)
+      least = std::min(least, (surface->nearest_on(triangle, p) - p).norm());
+    BOOST_TEST((surface->nearest(p, 100) - p).norm() == least, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(std::isinf(surface->nearest(p, 0.99 * least).x()));
+    // No point of the triangles' edges is nearer, nor one of their middles.
+    for (const auto& triangle : surface->triangles) {
+      const auto corner = [&](std::size_t i) { return surface->points[static_cast<std::size_t>(triangle.corners[i])]; };
+      for (const double share : {0.0, 0.3, 0.6})
+        BOOST_TEST_REQUIRE(((1 - share) * corner(0) + share * (0.5 * corner(1) + 0.5 * corner(2)) - p).norm() >
+                           least - 1e-12);
+    }
   }
 }
 

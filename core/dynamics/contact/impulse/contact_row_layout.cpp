@@ -91,7 +91,11 @@ void ContactRowLayout::colour_pairs(const std::vector<ContactConstraint>& constr
   for (std::size_t first = 0; first < constraints.size(); first += pairs_.back().points) {
     const auto [a, b] = std::pair(constraints[first].a, constraints[first].b);
     std::size_t last = first;
-    for (; last < constraints.size() && constraints[last].a == a && constraints[last].b == b; ++last)
+    // Bodies of several shapes, and those on surfaces, may have more points: these are several pairs, one after
+    // another.
+    for (; last < constraints.size() && last < first + kMostPoints && constraints[last].a == a &&
+           constraints[last].b == b;
+         ++last)
       has_deep_ = has_deep_ || constraints[last].is_deep;
     has_restitution_ = has_restitution_ || constraints[first].restitution > 0;
     const std::size_t points = last - first, kind = points == 1 && is_round_[a] && is_round_[b] ? 0 : points;

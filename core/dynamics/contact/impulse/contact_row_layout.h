@@ -61,7 +61,9 @@ class ContactRowLayout {
   const std::vector<RowPlace>& rows_of_many_passes() const { return rows_of_many_passes_; }
 
  private:
-  static constexpr std::size_t kKinds = 5;  // groups of a colour: of balls, and of any bodies with 1, 2, 3, 4 points
+  static constexpr std::size_t kMostPoints = 4;  // of a pair in one group
+  static constexpr std::size_t kKinds =
+      kMostPoints + 1;  // groups of a colour: of balls, and of any bodies with 1 to 4 points
   static constexpr std::size_t kFirstColours = 64;
   struct Colours {
     std::uint64_t first = 0;           // a bit each: that a pair of the body has
