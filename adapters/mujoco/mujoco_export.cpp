@@ -139,6 +139,9 @@ class Exporter {
     int part = 0;
     for_each_part(*body.shape, [&](const Shape& shape, const BodyPose& pose) {
       const std::string name = part_name(body, part++);
+      if (surface_in(shape))
+        return leave_out(fmt::format("the {} of body '{}'", shape_name(shape), body.name),
+                         "MuJoCo takes the convex hull of a mesh, and a height field from a file of its own");
       add("{:{}}<geom name=\"{}\" {}{}{}/>\n", "", indent, name, mjcf_shape(shape, name),
           is_placed ? mjcf_pose(pose) : "", touch_of(body));
     });

@@ -128,10 +128,36 @@ double over_plane(const Plane& plane, const Shape& shape, const BodyPose& pose) 
 
 Pose matrix_pose(const BodyPose& pose) { return {pose.position, matrix_of(pose.orientation)}; }
 
-// Of the nearest points of both; a surface is not convex.
+// m, of a point from a surface, in its frame; negative behind it. Beyond the border of a height field nothing is
+// behind.
+double point_to_surface(const Vec3& p, const Shape& on) {
+  const TriangleSurface& surface = *surface_in(on)->surface;
+  const Vec3 nearest = surface.nearest(p, kInfinity), line = p - nearest;
+  const double distance = line.norm(), same = 1e-9 * surface.bounding_radius;
+  const auto* field = std::get_if<Heightfield>(&on);
+  if (field && (std::abs(p.x()) > 0.5 * field->size[0] || std::abs(p.y()) > 0.5 * field->size[1])) return distance;
+  std::vector<int> around;
+  surface.find_near(nearest - Vec3::Constant(same), nearest + Vec3::Constant(same), around);
+  bool is_behind = true;
+  for (const int t : around) {
+    const auto& triangle = surface.triangles[static_cast<std::size_t>(t)];
+    if ((surface.nearest_on(triangle, p) - nearest).norm() <= same)
+      is_behind = is_behind && line.dot(triangle.normal) < 0;
+  }
+  return is_behind ? -distance : distance;
+}
+
+// Of the nearest points of both, because a surface is not convex. The search for these leaves out what is far, and a
+// body whose centre is behind the surface. Of the first the least gap that it can have is told, of the other how deep
+// it is at least.
 double gap_on_surface(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
+  if (surface_in(a)) return surface_in(b) ? kInfinity : gap_on_surface(b, pose_b, a, pose_a);
+  const double centre =
+      point_to_surface((inverse(pose_b) * BodyPose{pose_a.position + pose_a.orientation * centre_of(a)}).position, b);
+  if (centre < 0) return centre - inradius(a);
   Manifold points;
   collide(a, matrix_pose(pose_a), b, matrix_pose(pose_b), points);
+  if (points.size() == 0) return std::max(centre - bounding_radius(a) - centre_of(a).norm(), 0.0);
   double least = kInfinity;
   for (const ManifoldPoint& point : points) least = std::min(least, point.gap);
   return least;

@@ -83,7 +83,9 @@ class SdfWriter {
   void add_part(const Body& body, const Shape& shape, const BodyPose& at, const std::string& name, const char* indent) {
     const std::string geometry_of_shape = std::visit(SdfGeometry(), shape);
     if (geometry_of_shape.empty())
-      return leave_out(fmt::format("body '{}'", body.name), "its convex hull", "a mesh of SDF is a file of its own");
+      return leave_out(fmt::format("body '{}'", body.name),
+                       surface_in(shape) ? "its " + shape_name(shape) : "its convex hull",
+                       "a mesh of SDF is a file of its own");
     const double mu = scene_.contact_default.friction;
     const auto* plane = std::get_if<Plane>(&shape);
     std::string pose;

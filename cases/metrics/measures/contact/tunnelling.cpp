@@ -12,6 +12,19 @@ constexpr double kMostTurned = 2;  // rad between two instants, from which on or
 
 bool is_solid(const Body& body) { return body.collides && !std::holds_alternative<Plane>(*body.shape); }
 
+// m, half the least width. Of a closed mesh its volume over its area, which is never more.
+double half_width(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (!mesh) return inradius(shape);
+  const TriangleSurface& surface = *mesh->surface;
+  double area = 0;
+  for (const TriangleSurface::Triangle& triangle : surface.triangles) {
+    const auto corner = [&](std::size_t k) { return surface.points[static_cast<std::size_t>(triangle.corners[k])]; };
+    area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+  }
+  return surface.volume / area;
+}
+
 BodyState part_way(const BodyState& from, const BodyState& to, double share) {
   BodyState state = from;
   state.position += share * (to.position - from.position);
@@ -28,7 +41,7 @@ Tunnelling::Tunnelling(const Scene& scene) : scene_(scene), radii_(scene.bodies.
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (!is_solid(body)) continue;
-    radii_[i] = bounding_radius(*body.shape), inradii_[i] = inradius(*body.shape);
+    radii_[i] = bounding_radius(*body.shape), inradii_[i] = half_width(*body.shape);
     ++solid, moving += !body.fixed;
   }
   is_possible_ = solid > 1 && moving > 0;

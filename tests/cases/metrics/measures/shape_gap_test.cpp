@@ -196,4 +196,36 @@ BOOST_AUTO_TEST_CASE(crossed_rods_of_any_size_are_as_far_as_their_middles) {
   }
 }
 
+// A body that has fallen through the ground is deep in it, however far; beyond the border there is no ground.
+BOOST_AUTO_TEST_CASE(what_is_behind_a_surface_is_deep_in_it) {
+  Heightfield field;
+  field.size = {4, 4}, field.heights = {{0, 0.2, 0}, {0.1, 0, 0.1}, {0, 0.3, 0}};
+  field.surface = height_surface(field.size, field.heights);
+  const Shape ground = field, ball = Sphere{0.2}, box = Box{{0.3, 0.2, 0.1}};
+  const BodyPose at_rest{Vec3::Zero(), Quat::Identity()};
+  for (const Shape& shape : {ball, box}) {
+    for (const double depth : {0.3, 1.0, 100.0}) {
+      const double gap = shape_gap(shape, {{0.1, 0.2, -depth}, Quat::Identity()}, ground, at_rest);
+      BOOST_TEST(gap < -0.8 * depth);
+      BOOST_TEST(gap == shape_gap(ground, at_rest, shape, {{0.1, 0.2, -depth}, Quat::Identity()}));
+    }
+    BOOST_TEST(shape_gap(shape, {{3, 0.2, -1}, Quat::Identity()}, ground, at_rest) > 0);
+  }
+  // Above: the least distance that the ball can have, and near the ground its distance.
+  const double far = shape_gap(ball, {{0, 0, 10}, Quat::Identity()}, ground, at_rest);
+  BOOST_TEST((far > 9 && far <= 9.8));
+  const auto cube = [] {
+    const TriangleMesh drawn = unit_cube();
+    std::vector<Corners> corners;
+    for (std::size_t k = 0; k < drawn.corners.size(); k += 3)
+      corners.push_back({drawn.corners[k], drawn.corners[k + 1], drawn.corners[k + 2]});
+    return Shape(Mesh{{closed_surface(drawn.points, corners)}});
+  }();
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 p = random_vector(0.45);
+    const double expected = p.cwiseAbs().maxCoeff() - 0.5 - 0.2;
+    BOOST_TEST(shape_gap(ball, {p, Quat::Identity()}, cube, at_rest) == expected, boost::test_tools::tolerance(1e-9));
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

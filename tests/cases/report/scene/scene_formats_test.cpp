@@ -101,6 +101,9 @@ BOOST_AUTO_TEST_CASE(what_a_format_cannot_say_is_named_and_bad_usage_refused) {
   for (const char* format : {"sdf", "mjcf"}) {
     const Answer sticks = run({"export", "forces-of-contact/brick-sticks", "--format", format});
     BOOST_TEST(sticks.err.find("static friction") != std::string::npos, sticks.err);
+    const Answer hills = run({"export", "surfaces/hills", "--format", format});
+    BOOST_TEST(hills.err.find("heightfield") != std::string::npos, hills.err);
+    BOOST_TEST(hills.out.find("geom name=\"hills\"") == std::string::npos);
   }
   BOOST_TEST(run({"export", "springs/fixed-spring"}).code == 2);
   BOOST_TEST(run({"export", "springs/fixed-spring", "--format", "urdf"}).code == 2);

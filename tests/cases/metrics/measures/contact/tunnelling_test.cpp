@@ -113,4 +113,27 @@ BOOST_AUTO_TEST_CASE(a_path_that_is_not_known_is_no_passage) {
   BOOST_TEST(word_of(verdict_on({scene, run, nullptr, 0}).verdict) == "tunnelled");
 }
 
+BOOST_AUTO_TEST_CASE(what_goes_through_triangles_has_tunnelled) {
+  const TriangleMesh cube = unit_cube();
+  std::vector<Vec3> points;
+  std::vector<Corners> corners;
+  for (const Vec3& point : cube.points) points.push_back(point.cwiseProduct(Vec3(0.01, 9, 9)));
+  for (std::size_t k = 0; k < cube.corners.size(); k += 3)
+    corners.push_back({cube.corners[k], cube.corners[k + 1], cube.corners[k + 2]});
+  Scene scene;
+  scene.bodies = {test::on_its_own("ball", Sphere{0.5}, 2, {-5, 0, 0}),
+                  test::on_its_own("wall", Mesh{{closed_surface(points, corners)}}, 1, {0, 0, 0})};
+  scene.bodies[1].fixed = true;
+  for (const double speed : {400.0, 30.0}) {
+    for (const bool is_stopped : {false, true}) {
+      scene.bodies[0].velocity = {speed, 0, 0};
+      const Trajectory run = run_of(scene, 30, [&](double t, MutableBodyColumns bodies) {
+        const double x = is_stopped ? std::min(-5 + speed * t, -0.505) : -5 + speed * t;
+        bodies.set_position(0, {x, 0, 0}), bodies.set_velocity(0, {is_stopped && x > -0.6 ? 0 : speed, 0, 0});
+      });
+      BOOST_TEST((word_of(verdict_on({scene, run, nullptr, 0}).verdict) == "tunnelled") == !is_stopped, speed);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
