@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "core/dynamics/collision/neighbour_list.h"
 #include "core/dynamics/contact/contact_method.h"
@@ -36,6 +38,25 @@ std::vector<Ball> balls_of(const Scene& scene) {
   return balls;
 }
 
+// The impulses of one step. An integrator may resolve contacts several times in it.
+class CourseImpulses : public ReportsContacts {
+ public:
+  void ask_for_contacts() override { is_asked_ = true; }
+  std::vector<ReportedContact> contacts() const override { return contacts_; }
+
+  void begin_step() { contacts_.clear(); }
+  void add(ReportedContact contact) {  // its force is an impulse yet [N s]
+    if (is_asked_) contacts_.push_back(std::move(contact));
+  }
+  void end_step(double dt) {
+    for (ReportedContact& contact : contacts_) contact.force /= dt;
+  }
+
+ private:
+  bool is_asked_ = false;
+  std::vector<ReportedContact> contacts_;
+};
+
 class CourseContact : public Contact {
  public:
   CourseContact(const Scene& scene, const System& system)
@@ -64,6 +85,8 @@ class CourseContact : public Contact {
 
   void archive_state(StateArchive& archive) { neighbours_.archive_state(archive, spheres_); }
 
+  CourseImpulses impulses;
+
  private:
   // A plane is fixed: where its own point lies does not matter.
   void resolve_on_ground(const Ground& ground, MutableBodyColumns state) {
@@ -73,22 +96,24 @@ class CourseContact : public Contact {
         kernels().below_plane(system_.constants.all(), state.column(0), spheres_.data(), plane, below_.data());
     for (std::size_t k = 0; k < count; ++k) {
       const int ball = below_[k];
-      bounce({ball, -spheres_.column(kRadius)[ball] * n}, {ground.body, Vec3::Zero()}, n, state);
+      const double radius = spheres_.column(kRadius)[ball],
+                   gap = n.dot(state.position(ball)) - ground.plane.offset - radius;
+      bounce({ball, -radius * n}, {ground.body, Vec3::Zero()}, n, gap, state);
     }
   }
 
-  void resolve_balls(const Ball& a, const Ball& b, MutableBodyColumns state) const {
+  void resolve_balls(const Ball& a, const Ball& b, MutableBodyColumns state) {
     const Vec3 line = state.position(a.body) - state.position(b.body);
     const double distance = line.norm();
     if (distance == 0) return;  // no direction to part in
     const Vec3 n = line / distance;
     // One point for both, in the middle of the overlap, so that the pair keeps its angular momentum.
     const double half_depth = 0.5 * (a.radius + b.radius - distance);
-    bounce({a.body, (half_depth - a.radius) * n}, {b.body, (b.radius - half_depth) * n}, n, state);
+    bounce({a.body, (half_depth - a.radius) * n}, {b.body, (b.radius - half_depth) * n}, n, -2 * half_depth, state);
   }
 
-  // n points from b to a.
-  void bounce(const Side& a, const Side& b, const Vec3& n, MutableBodyColumns state) const {
+  // n points from b to a; gap [m].
+  void bounce(const Side& a, const Side& b, const Vec3& n, double gap, MutableBodyColumns state) {
     if (!laws_.may_touch(a.body, b.body)) return;
     const Vec3 u = point_velocity(a, state) - point_velocity(b, state);
     const double speed = n.dot(u);
@@ -100,6 +125,7 @@ class CourseContact : public Contact {
     const Vec3 impulse = K.inverse() * (target_velocity - u);
     push(a, turning_a, impulse, state);
     push(b, turning_b, -impulse, state);
+    impulses.add({a.body, b.body, state.position(a.body) + a.arm, -n, gap, -impulse});
   }
 
   static Vec3 point_velocity(const Side& side, BodyColumns state) {
@@ -143,7 +169,12 @@ class CourseStepper : public ContactStepper {
       : contact_(scene, parts.system),
         stepper_(parts.integrator.make({parts.system, &contact_, parts.orientation, parts.settings})) {}
 
-  void step(MutableBodyColumns state, double t, double dt) override { stepper_->step(state, t, dt); }
+  void step(MutableBodyColumns state, double t, double dt) override {
+    contact_.impulses.begin_step();
+    stepper_->step(state, t, dt);
+    contact_.impulses.end_step(dt);
+  }
+  ReportsContacts* contact_reports() override { return &contact_.impulses; }
   std::string solver_warning() const override { return stepper_->solver_warning(); }
   void archive_state(StateArchive& archive) override {
     archive(contact_);

@@ -85,4 +85,39 @@ BOOST_AUTO_TEST_CASE(two_spheres_keep_their_momentum_and_part_with_the_restituti
   BOOST_TEST((u - Vec3(-0.25, 0, 0)).norm() < 1e-13);
 }
 
+// Newton's law for each ball and step: what is reported is all that acts beside gravity.
+BOOST_AUTO_TEST_CASE(reported_forces_explain_the_motion) {
+  Scene scene =
+      test::on_floor({test::solid("low", Sphere{0.2}, {0, 0, 0.3}), test::solid("high", Sphere{0.2}, {0.1, 0, 0.9})},
+                     {0.5, kInfiniteFriction});
+  scene.bodies[1].angular_velocity = {1, 2, 3};
+  for (const char* integrator : {"semi-implicit-euler", "velocity-verlet", "rk4"}) {
+    test::ContactRun run(scene, "course", integrator);
+    run.contact_reports().ask_for_contacts();
+    constexpr double kDt = 1.0 / 240;
+    int contacts = 0;
+    std::vector<Vec3> before;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) before.push_back(scene.bodies[i].velocity);
+    for (int step = 0; step < 240; ++step) {
+      run.run(kDt, 1);
+      std::vector<Vec3> force(scene.bodies.size(), Vec3::Zero());
+      for (const ReportedContact& contact : run.contact_reports().contacts()) {
+        force[static_cast<std::size_t>(contact.a)] -= contact.force,
+            force[static_cast<std::size_t>(contact.b)] += contact.force;
+        BOOST_TEST(contact.gap <= 0);
+        ++contacts;
+      }
+      for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
+        if (body.fixed) continue;
+        const Vec3 v = run.state().velocity(static_cast<int>(i));
+        // Roundings of impacts of some m/s, over a step.
+        BOOST_TEST((body.mass * ((v - before[i]) / kDt - scene.gravity) - force[i]).norm() < 1e-9);
+        before[i] = v;
+      }
+    }
+    BOOST_TEST(contacts > 3, integrator);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
