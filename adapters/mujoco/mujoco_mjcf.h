@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "adapters/common/spanning_tree.h"
-#include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
@@ -63,7 +62,7 @@ struct MjcfLoop {
 };
 MjcfLoop mjcf_loop(const Joint& joint);
 
-std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings,
-                        double tolerance = kMujocoTolerance);
+// `tolerance`: of the solver, on the track `matched`.
+std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings, double tolerance);
 
 }  // namespace rigor

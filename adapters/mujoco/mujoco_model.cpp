@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "adapters/mujoco/mujoco_mjcf.h"
+#include "adapters/mujoco/mujoco_options.h"
 #include "core/base/eigen_of.h"
 
 namespace rigor {
@@ -37,7 +38,7 @@ std::optional<MujocoInertia> inertia_to_set(const Body& body) {
 
 MujocoModel mujoco_model(const Scene& scene, const SpanningTree& tree, const Settings& settings) {
   MujocoModel made;
-  made.model = mujoco_library::compile(mujoco_mjcf(scene, tree, settings));
+  made.model = mujoco_library::compile(mujoco_mjcf(scene, tree, settings, kMujocoTolerance));
   mjModel& model = *made.model;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const int id = mj_name2id(&model, mjOBJ_BODY, fmt::format("b{}", i).c_str());

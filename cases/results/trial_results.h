@@ -35,7 +35,7 @@ std::string recording_of_trial(const std::string& recorder, std::size_t trial);
 // None where no trial has a value.
 std::optional<TrialSpread> spread_over(const std::vector<TrialResult>& trials, const std::string& metric);
 
-// By how much a metric of one cell exceeds that of another, trial by trial: what all trials share drops out.
+// The difference of a metric between two cells, taken trial by trial. What is hard for both drops out.
 struct PairedDifference {
   double mean = 0, low = 0, high = 0;  // low to high: the 95 % interval of the mean, by Student's distribution
   bool is_certain() const { return low > 0 || high < 0; }

@@ -111,14 +111,17 @@ std::vector<Ground> grounds_of(const Scene& scene) {
   return grounds;
 }
 
-// "'ball' is at the border of the flat part of 'ground'"; empty if none is.
-std::string at_a_border(const Scene& scene, const std::vector<Ground>& grounds, BodyColumns bodies) {
+// "'ball' is at the border of the flat part of 'ground'"; empty if all are in front of it.
+std::string who_leaves(const Scene& scene, const std::vector<Ground>& grounds, BodyColumns bodies) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (body.fixed || !body.collides) continue;
     for (const Ground& ground : grounds) {
-      if (ground.region.inside(bodies.position(i)) < bounding_radius(*body.shape))
-        return fmt::format("'{}' is at the border of the flat part of '{}'", body.name, scene.bodies[ground.body].name);
+      const Plane& plane = ground.region.plane;
+      const bool is_behind = plane.normal.dot(bodies.position(i)) < plane.offset;
+      if (is_behind || ground.region.inside(bodies.position(i)) < bounding_radius(*body.shape))
+        return fmt::format("'{}' is {} the flat part of '{}'", body.name, is_behind ? "behind" : "at the border of",
+                           scene.bodies[ground.body].name);
     }
   }
   return "";
@@ -145,10 +148,11 @@ std::unique_ptr<Truth> truth_over_ground(const Scene& scene, std::unique_ptr<Tru
   for (int k = 0; k <= kInstants; ++k) {
     const double t = duration * k / kInstants;
     truth->at(t, bodies.columns());
-    const std::string who = at_a_border(scene, grounds, std::as_const(bodies).columns());
+    const std::string who = who_leaves(scene, grounds, std::as_const(bodies).columns());
     if (who.empty()) continue;
     if (k == 0) throw InputError(fmt::format("{} from the start; allowed: a larger one, or the truth 'none'", who));
-    truth->end_at(t, fmt::format("From {:.3g} s on {}, where its motion is not known.", t, who));
+    truth->end_at(duration * (k - 1) / kInstants,
+                  fmt::format("From {:.3g} s on {}, where its motion is not known.", t, who));
     break;
   }
   return truth;

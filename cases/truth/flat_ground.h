@@ -13,7 +13,7 @@ namespace rigor {
 Scene on_planes(const Scene& scene);
 
 // The truth of on_planes(scene) as one of the scene itself. Its error is infinite from the instant on at which a body
-// comes nearer to the border of such a region than its own size. Throws InputError if one starts there.
+// comes nearer to the border of such a region than its own size, or behind it. Throws InputError if one starts there.
 std::unique_ptr<Truth> truth_over_ground(const Scene& scene, std::unique_ptr<Truth> on_plane, double duration);
 
 }  // namespace rigor

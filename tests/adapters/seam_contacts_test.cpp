@@ -28,15 +28,7 @@ Heightfield flat_ground() {
 }
 
 // 4 by 4 by 0.4 m, of twelve triangles.
-Mesh slab() {
-  const TriangleMesh cube = unit_cube();
-  std::vector<Vec3> points;
-  std::vector<Corners> corners;
-  for (const Vec3& point : cube.points) points.push_back(point.cwiseProduct(Vec3(4, 4, 0.4)));
-  for (std::size_t k = 0; k < cube.corners.size(); k += 3)
-    corners.push_back({cube.corners[k], cube.corners[k + 1], cube.corners[k + 2]});
-  return {{closed_surface(points, corners)}};
-}
+Mesh slab() { return {{closed_surface(scaled(unit_cube(), Vec3(4, 4, 0.4)))}}; }
 
 // Each pair of shapes, the lower one fixed, the upper one balanced above it.
 std::vector<Resting> resting_pairs() {

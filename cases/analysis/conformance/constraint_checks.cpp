@@ -153,8 +153,14 @@ std::vector<Resting> resting_pairs() {
   const Box box{{1, 1, 1}};
   const Capsule capsule{0.5, 1};  // upright: half its length and its radius are 1
   const Plane plane{{0, 0, 1}, 0};
-  return {{sphere, plane, 0.5}, {box, plane, 0.5},   {capsule, plane, 1},    {box, box, 1},        {sphere, box, 1},
-          {capsule, box, 1.5},  {sphere, sphere, 1}, {capsule, sphere, 1.5}, {capsule, capsule, 2}};
+  const Mesh slab{{closed_surface(scaled(unit_cube(), Vec3(4, 4, 1)))}};
+  Heightfield field;
+  field.size = {4, 4}, field.heights.assign(5, std::vector<double>(5, 0.0));
+  field.surface = height_surface(field.size, field.heights);
+  return {{sphere, plane, 0.5},  {box, plane, 0.5},    {capsule, plane, 1}, {box, box, 1},
+          {sphere, box, 1},      {capsule, box, 1.5},  {sphere, sphere, 1}, {capsule, sphere, 1.5},
+          {capsule, capsule, 2}, {sphere, field, 0.5}, {box, field, 0.5},   {capsule, field, 1},
+          {sphere, slab, 1},     {box, slab, 1},       {capsule, slab, 1.5}};
 }
 
 // The scene with a friction that the engine has, if there is one.

@@ -148,8 +148,7 @@ double point_to_surface(const Vec3& p, const Shape& on) {
 }
 
 // Of the nearest points of both, because a surface is not convex. The search for these leaves out what is far, and a
-// body whose centre is behind the surface. Of the first the least gap that it can have is told, of the other how deep
-// it is at least.
+// body whose centre is behind the surface. The first gets the least gap that it can have, the other the least depth.
 double gap_on_surface(const Shape& a, const BodyPose& pose_a, const Shape& b, const BodyPose& pose_b) {
   if (surface_in(a)) return surface_in(b) ? kInfinity : gap_on_surface(b, pose_b, a, pose_a);
   const double centre =

@@ -171,7 +171,9 @@ struct Collide {
                    b_is_placed = std::holds_alternative<Compound>(of_b);
         collide(shape_a, a_is_placed ? a * pose_a : a, shape_b, b_is_placed ? b * pose_b : b, points);
         for (ManifoldPoint point : points) {
-          point.part_a = part_a, point.part_b = part_b;
+          // A surface has numbers of its own: those of the regions that are touched.
+          if (a_is_placed) point.part_a = part_a;
+          if (b_is_placed) point.part_b = part_b;
           point.feature ^= 0x9E3779B1u * part_a + 0x85EBCA77u * part_b;
           add_nearest(point);
         }

@@ -15,6 +15,7 @@ extern "C" {
 }
 
 #include "core/base/error.h"
+#include "core/scene/shapes/solid_integrals.h"
 
 namespace rigor {
 namespace {
@@ -136,29 +137,15 @@ bool find_edges(Hull& hull) {
   return std::all_of(hull.edges.begin(), hull.edges.end(), [](const Hull::Edge& edge) { return edge.right >= 0; });
 }
 
-// Volume, centre and inertia as sums over tetrahedra from a point to the triangles of the faces. These are Mirtich's
-// integrals (Fast and Accurate Computation of Polyhedral Mass Properties, 1996), exact for polynomials.
 void integrate(Hull& hull) {
-  const Vec3 origin = hull.points.front();
-  Vec3 first = Vec3::Zero();
-  Mat3 second = Mat3::Zero();
+  SolidIntegrals solid(hull.points.front());
   for (const Hull::Face& face : hull.faces) {
-    const auto corner = [&](std::size_t i) -> Vec3 {
-      return hull.points[static_cast<std::size_t>(face.corners[i])] - origin;
-    };
-    for (std::size_t i = 1; i + 1 < face.corners.size(); ++i) {
-      const Vec3 a = corner(0), b = corner(i), c = corner(i + 1), sum = a + b + c;
-      const double six = a.dot(b.cross(c));  // six volumes
-      hull.volume += six / 6;
-      first += six / 24 * sum;
-      second += six / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-    }
+    const auto corner = [&](std::size_t i) { return hull.points[static_cast<std::size_t>(face.corners[i])]; };
+    for (std::size_t i = 1; i + 1 < face.corners.size(); ++i) solid.add(corner(0), corner(i), corner(i + 1));
   }
+  hull.volume = solid.volume();
   if (!(hull.volume > 0)) refuse_flat();
-  const Vec3 centre = first / hull.volume;
-  second -= hull.volume * centre * centre.transpose();
-  hull.inertia = second.trace() * Mat3::Identity() - second;
-  hull.centre = origin + centre;
+  hull.centre = solid.centre(), hull.inertia = solid.inertia();
 }
 
 void measure(Hull& hull) {

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/shapes/mesh.h"
+#include "core/scene/shapes/solid_integrals.h"
 
 namespace rigor {
 namespace {
@@ -91,8 +92,6 @@ class SurfaceBuilder {
     }
   }
 
-  // By tetrahedra from a point, as of a hull (Mirtich, Fast and Accurate Computation of Polyhedral Mass Properties,
-  // 1996).
   void measure() {
     TriangleSurface& made = *made_;
     made.low = made.high = made.points.front();
@@ -103,24 +102,14 @@ class SurfaceBuilder {
   }
   void integrate() {
     TriangleSurface& made = *made_;
-    const Vec3 origin = 0.5 * (made.low + made.high);
-    Vec3 first = Vec3::Zero();
-    Mat3 second = Mat3::Zero();
-    for (const TriangleSurface::Triangle& triangle : made.triangles) {
-      const Vec3 a = corner(triangle, 0) - origin, b = corner(triangle, 1) - origin, c = corner(triangle, 2) - origin,
-                 sum = a + b + c;
-      const double six = a.dot(b.cross(c));  // six volumes
-      made.volume += six / 6, first += six / 24 * sum;
-      second += six / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
-    }
+    SolidIntegrals solid(0.5 * (made.low + made.high));
+    for (const TriangleSurface::Triangle& triangle : made.triangles)
+      solid.add(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
     const double around = 0.5 * (made.high - made.low).norm(), flat = kFlatVolume * around * around * around;
-    if (made.volume < -flat)
+    if (solid.volume() < -flat)
       throw InputError("its triangles look inwards; allowed: corners anticlockwise as seen from outside");
-    if (!(made.volume > flat)) throw InputError("the mesh encloses no volume; allowed: triangles around a volume");
-    const Vec3 middle = first / made.volume;
-    second -= made.volume * middle * middle.transpose();
-    made.inertia = second.trace() * Mat3::Identity() - second;
-    made.centre = origin + middle;
+    if (!(solid.volume() > flat)) throw InputError("the mesh encloses no volume; allowed: triangles around a volume");
+    made.volume = solid.volume(), made.centre = solid.centre(), made.inertia = solid.inertia();
   }
 
   void find_ridges() {
@@ -308,6 +297,13 @@ std::shared_ptr<const TriangleSurface> closed_surface(const std::vector<Vec3>& p
   builder.measure(), builder.integrate(), builder.find_ridges(), builder.find_patches(), builder.plant_tree();
   builder.refuse_cuts();
   return builder.take();
+}
+
+std::shared_ptr<const TriangleSurface> closed_surface(const TriangleMesh& drawn) {
+  std::vector<Corners> triangles;
+  for (std::size_t k = 0; k + 2 < drawn.corners.size(); k += 3)
+    triangles.push_back({drawn.corners[k], drawn.corners[k + 1], drawn.corners[k + 2]});
+  return closed_surface(drawn.points, triangles);
 }
 
 std::shared_ptr<const TriangleSurface> height_surface(const std::array<double, 2>& size,

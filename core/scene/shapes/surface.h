@@ -1,5 +1,5 @@
-// Triangles with solid ground behind them, for what stands still: a closed mesh, or a height field. What follows from
-// them is made once: normals, which edges and corners stick out, and a tree that finds the triangles near a box.
+// Triangles with solid ground behind them, for what stands still: a closed mesh, or a height field. Normals, the edges
+// and corners that stick out, and a tree that finds the triangles near a box are made once.
 #pragma once
 
 #include <array>
@@ -62,17 +62,25 @@ struct TriangleSurface {
     Vec3 low, high;
     int first, count, right;  // the left child follows its parent
   };
+  // Calls visit(number of a triangle) for those in nodes that `enters` lets in, the left child first if `left_is_first`
+  // says so.
+  template <typename Enters, typename LeftIsFirst, typename Visit>
+  void descend(const Enters& enters, const LeftIsFirst& left_is_first, const Visit& visit) const;
+
   std::vector<Node> nodes;
   std::vector<int> order;
 };
 
 using Corners = std::array<int, 3>;
 
-// A mesh encloses a volume. Points at the same place are one. Throws InputError, without a place: numbers that are not
-// finite, corners that no point has, too many triangles, triangles without an area, an open or flat mesh, edges that
-// not exactly two triangles share, triangles that look inwards, and triangles that cut each other.
+// A mesh encloses a volume. Points at the same place are one. Throws InputError, without a place:
+//   numbers that are not finite, corners that no point has, too many triangles, triangles without an area;
+//   an open or flat mesh, an edge that not exactly two triangles share;
+//   triangles that look inwards, triangles that cut each other.
 std::shared_ptr<const TriangleSurface> closed_surface(const std::vector<Vec3>& points,
                                                       const std::vector<Corners>& triangles);
+
+std::shared_ptr<const TriangleSurface> closed_surface(const TriangleMesh& drawn);
 
 // Heights [m] above a rectangle of size.x by size.y [m] about the origin, by rows along y, each along x. Each cell is
 // divided by the diagonal from its corner at low x and low y. Throws InputError as above.

@@ -11,25 +11,33 @@ std::size_t place_of(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
+template <typename Enters, typename LeftIsFirst, typename Visit>
+void TriangleSurface::descend(const Enters& enters, const LeftIsFirst& left_is_first, const Visit& visit) const {
+  static thread_local std::vector<int> open;
+  open.assign(1, 0);
+  while (!open.empty()) {
+    const int at = open.back(), left = at + 1;
+    const Node& node = nodes[place_of(at)];
+    open.pop_back();
+    if (!enters(node)) continue;
+    for (int i = node.first; i < node.first + node.count; ++i) visit(order[place_of(i)]);
+    if (node.count > 0) continue;
+    const bool is_left = left_is_first(nodes[place_of(left)], nodes[place_of(node.right)]);
+    open.push_back(is_left ? node.right : left), open.push_back(is_left ? left : node.right);
+  }
+}
+
 void TriangleSurface::find_near(const Vec3& box_low, const Vec3& box_high, std::vector<int>& out) const {
   const auto overlaps = [&](const Vec3& its_low, const Vec3& its_high) {
     return (its_low.array() <= box_high.array()).all() && (box_low.array() <= its_high.array()).all();
   };
-  static thread_local std::vector<int> open;
-  open.assign(1, 0);
-  while (!open.empty()) {
-    const int at = open.back();
-    const Node& node = nodes[place_of(at)];
-    open.pop_back();
-    if (!overlaps(node.low, node.high)) continue;
-    for (int i = node.first; i < node.first + node.count; ++i) {
-      const int t = order[place_of(i)];
-      const Corners& c = triangles[place_of(t)].corners;
-      const Vec3 &p = points[place_of(c[0])], &q = points[place_of(c[1])], &r = points[place_of(c[2])];
-      if (overlaps(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r))) out.push_back(t);
-    }
-    if (node.count == 0) open.push_back(node.right), open.push_back(at + 1);
-  }
+  descend([&](const Node& node) { return overlaps(node.low, node.high); },
+          [](const Node&, const Node&) { return true; },
+          [&](int t) {
+            const Corners& c = triangles[place_of(t)].corners;
+            const Vec3 &p = points[place_of(c[0])], &q = points[place_of(c[1])], &r = points[place_of(c[2])];
+            if (overlaps(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r))) out.push_back(t);
+          });
 }
 
 Vec3 TriangleSurface::nearest_on(const Triangle& triangle, const Vec3& p) const {
@@ -53,22 +61,12 @@ Vec3 TriangleSurface::nearest(const Vec3& p, double most) const {
   const auto square_to = [&](const Node& node) { return (p - p.cwiseMax(node.low).cwiseMin(node.high)).squaredNorm(); };
   Vec3 best = Vec3::Constant(std::numeric_limits<double>::infinity());
   double least = most * most;
-  static thread_local std::vector<int> open;
-  open.assign(1, 0);
-  while (!open.empty()) {
-    const int at = open.back();
-    const Node& node = nodes[place_of(at)];
-    open.pop_back();
-    if (square_to(node) > least) continue;
-    for (int i = node.first; i < node.first + node.count; ++i) {
-      const Vec3 near = nearest_on(triangles[place_of(order[place_of(i)])], p);
-      if (const double square = (p - near).squaredNorm(); square <= least) least = square, best = near;
-    }
-    if (node.count > 0) continue;
-    const int left = at + 1, right = node.right;
-    const bool is_left_nearer = square_to(nodes[place_of(left)]) < square_to(nodes[place_of(right)]);
-    open.push_back(is_left_nearer ? right : left), open.push_back(is_left_nearer ? left : right);
-  }
+  descend([&](const Node& node) { return square_to(node) <= least; },
+          [&](const Node& left, const Node& right) { return square_to(left) < square_to(right); },
+          [&](int t) {
+            const Vec3 near = nearest_on(triangles[place_of(t)], p);
+            if (const double square = (p - near).squaredNorm(); square <= least) least = square, best = near;
+          });
   return best;
 }
 

@@ -102,8 +102,8 @@ Tunnelling::Path Tunnelling::path_of(int body, double h, BodyColumns bodies, boo
   return {from, to, is_straight || scene_.bodies[body].fixed};
 }
 
-// By how much the velocity with which they approach has changed, beside gravity, tells whether they were stopped: any
-// impact takes all of it at least.
+// An impact takes at least all of the velocity with which they approach. So a smaller change, beside gravity, says that
+// they were not stopped.
 bool Tunnelling::is_known(const Pair& pair, const Path& a, const Path& b, double h) const {
   if (a.is_straight && b.is_straight) return true;
   constexpr double kStep = 1e-3;  // of the way

@@ -214,13 +214,7 @@ BOOST_AUTO_TEST_CASE(what_is_behind_a_surface_is_deep_in_it) {
   // Above: the least distance that the ball can have, and near the ground its distance.
   const double far = shape_gap(ball, {{0, 0, 10}, Quat::Identity()}, ground, at_rest);
   BOOST_TEST((far > 9 && far <= 9.8));
-  const auto cube = [] {
-    const TriangleMesh drawn = unit_cube();
-    std::vector<Corners> corners;
-    for (std::size_t k = 0; k < drawn.corners.size(); k += 3)
-      corners.push_back({drawn.corners[k], drawn.corners[k + 1], drawn.corners[k + 2]});
-    return Shape(Mesh{{closed_surface(drawn.points, corners)}});
-  }();
+  const Shape cube = Mesh{{closed_surface(unit_cube())}};
   for (int k = 0; k < 200; ++k) {
     const Vec3 p = random_vector(0.45);
     const double expected = p.cwiseAbs().maxCoeff() - 0.5 - 0.2;

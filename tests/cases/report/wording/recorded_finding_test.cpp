@@ -1,4 +1,4 @@
-// Which engine comes nearest to a recording: engines are ranked, the core stands apart, and a mean without its hard
+// The engine that comes nearest to a recording: engines are ranked, the core stands apart, and a mean without its hard
 // trials is not compared.
 #include "cases/report/wording/findings/recorded_finding.h"
 

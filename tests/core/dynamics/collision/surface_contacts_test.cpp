@@ -42,15 +42,7 @@ Heightfield flat_ground(std::size_t count) {
   return field;
 }
 
-Mesh mesh_of_box(const Vec3& size) {
-  const TriangleMesh cube = unit_cube();
-  std::vector<Vec3> points;
-  std::vector<Corners> corners;
-  for (const Vec3& point : cube.points) points.push_back(point.cwiseProduct(size));
-  for (std::size_t k = 0; k < cube.corners.size(); k += 3)
-    corners.push_back({cube.corners[k], cube.corners[k + 1], cube.corners[k + 2]});
-  return {{closed_surface(points, corners)}};
-}
+Mesh mesh_of_box(const Vec3& size) { return {{closed_surface(scaled(unit_cube(), size))}}; }
 
 std::vector<Shape> shapes() {
   return {Box{{0.3, 0.5, 0.2}}, Capsule{0.1, 0.4},
@@ -169,6 +161,22 @@ BOOST_AUTO_TEST_CASE(the_back_of_a_thin_wall_is_no_overlap) {
     at.p.z() = 0.005 - least_gap(shape, {{0, 0, 0}, Mat3::Identity()}, Plane{Vec3::UnitZ(), 0}, {});
     BOOST_TEST(std::abs(least_gap(shape, at, wall, {})) < kRounding);
   }
+}
+
+// A body of one shape that is moved aside keeps its contacts on both slopes.
+BOOST_AUTO_TEST_CASE(a_part_of_a_body_touches_each_slope_of_a_valley) {
+  Heightfield valley;
+  valley.size = {2, 2}, valley.heights = {{1, 0, 1}, {1, 0, 1}};
+  valley.surface = height_surface(valley.size, valley.heights);
+  const Shape moved = Compound{{{Sphere{0.2}, {{0, 0, 0.3}, Quat::Identity()}}}};
+  Manifold points;
+  collide(moved, {{0, 0, 0.2 * std::sqrt(2.0) - 0.3}, Mat3::Identity()}, valley, {}, points);
+  BOOST_TEST_REQUIRE(points.size() == 2);
+  for (const ManifoldPoint& point : points) BOOST_TEST(std::abs(point.gap) < kRounding);
+  BOOST_TEST(points[0].part_b != points[1].part_b);
+  collide(valley, {}, moved, {{0, 0, 0.2 * std::sqrt(2.0) - 0.3}, Mat3::Identity()}, points);
+  BOOST_TEST_REQUIRE(points.size() == 2);
+  BOOST_TEST(points[0].part_a != points[1].part_a);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

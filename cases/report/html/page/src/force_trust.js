@@ -1,6 +1,6 @@
 // Whose contact forces can be trusted: for each engine, over all cases with reported contact forces, in shares of the
 // weight. First of all: do the forces explain the motion?
-import { metricOf } from "./data.js";
+import { judgement, metricOf } from "./data.js";
 import { el, tableHead } from "./dom.js";
 import { percent } from "./format.js";
 import { address, openCase } from "./state.js";
@@ -64,18 +64,25 @@ export function trustRows(results) {
     engines,
     found: columns.map(({ of, metric }) => worstOf(engines.map((engine) => of(valuesOf(results, engine, metric))).filter(Boolean))),
   }));
-  for (const row of rows) row.kinds = row.found.map((found, i) => kindOf(found, columns[i]));
-  return rows;
+  for (const row of rows) {
+    const ran = results.cells.filter((cell) => cell.status !== "unsupported" && row.engines.some(({ name }) => name === cell.engine));
+    row.ran = ran.length;
+    row.failed = ran.filter((cell) => judgement(cell).kind === "bad").length;
+    row.kinds = row.found.map((found, i) => kindOf(found, columns[i]));
+  }
+  return rows.filter(({ ran }) => ran > 0);
 }
 
 // Null unless at least half of the cases compare contact forces.
 export function forceTrust(results) {
   const compared = results.cases.filter((one) => one.cells.some((cell) => metricOf(cell, "contact_balance") !== null));
   if (!compared.length || 2 * compared.length < results.cases.length) return null;
-  const all = trustRows(results).filter(({ engines }) => engines.some((engine) => hasRun(results, engine))),
+  const all = trustRows(results),
     rows = all.filter(({ found }) => found[0]),
-    silent = all.filter(({ found }) => !found[0]);
-  const isRight = ({ kinds }) => kinds.every((kind) => kind === "good" || kind === "none"),
+    silent = all.filter(({ found, failed, ran }) => !found[0] && failed < ran);
+  const isRight = ({ kinds, failed }) => failed === 0 && kinds.every((kind) => kind === "good"),
+    isRed = ({ kinds }) => kinds.includes("bad"),
+    explains = rows.filter((row) => row.kinds[0] === "good" && !isRight(row)),
     named = (list) => el("b", {}, list.map(({ name }) => name).join(", ")),
     sentence = (words, list) => (list.length ? [`${words}: `, named(list), ". "] : []);
   return el(
@@ -86,7 +93,8 @@ export function forceTrust(results) {
       "p",
       {},
       sentence("Right in every column", rows.filter(isRight)),
-      sentence("They explain the motion, but look at the red cells", rows.filter((row) => !isRight(row) && row.kinds[0] === "good")),
+      sentence("They explain the motion, but look at the red cells", explains.filter(isRed)),
+      sentence("They explain the motion, as far as they were compared", explains.filter((row) => !isRed(row))),
       sentence("They do not explain the motion", rows.filter((row) => row.kinds[0] !== "good")),
       sentence("No contact forces are reported", silent),
     ),
@@ -96,12 +104,18 @@ export function forceTrust(results) {
       el(
         "table.plain",
         {},
-        tableHead("engine", ...columns.map(({ title }) => title)),
+        tableHead("engine", ...columns.map(({ title }) => title), "runs that failed"),
         el(
           "tbody",
           {},
-          rows.map(({ name, found, kinds }) =>
-            el("tr", { "data-engine": name }, el("th", { scope: "row" }, name), found.map((one, i) => cellOf(one, kinds[i]))),
+          rows.map(({ name, found, kinds, failed, ran }) =>
+            el(
+              "tr",
+              { "data-engine": name },
+              el("th", { scope: "row" }, name),
+              found.map((one, i) => cellOf(one, kinds[i])),
+              el("td", {}, `${failed} of ${ran}`),
+            ),
           ),
         ),
       ),
@@ -127,5 +141,3 @@ function cellOf(found, kind) {
     ),
   );
 }
-
-const hasRun = (results, engine) => results.cells.some((cell) => cell.engine === engine.name && cell.status !== "unsupported");

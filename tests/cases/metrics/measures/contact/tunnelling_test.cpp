@@ -114,15 +114,9 @@ BOOST_AUTO_TEST_CASE(a_path_that_is_not_known_is_no_passage) {
 }
 
 BOOST_AUTO_TEST_CASE(what_goes_through_triangles_has_tunnelled) {
-  const TriangleMesh cube = unit_cube();
-  std::vector<Vec3> points;
-  std::vector<Corners> corners;
-  for (const Vec3& point : cube.points) points.push_back(point.cwiseProduct(Vec3(0.01, 9, 9)));
-  for (std::size_t k = 0; k < cube.corners.size(); k += 3)
-    corners.push_back({cube.corners[k], cube.corners[k + 1], cube.corners[k + 2]});
+  const Mesh wall{{closed_surface(scaled(unit_cube(), Vec3(0.01, 9, 9)))}};
   Scene scene;
-  scene.bodies = {test::on_its_own("ball", Sphere{0.5}, 2, {-5, 0, 0}),
-                  test::on_its_own("wall", Mesh{{closed_surface(points, corners)}}, 1, {0, 0, 0})};
+  scene.bodies = {test::on_its_own("ball", Sphere{0.5}, 2, {-5, 0, 0}), test::on_its_own("wall", wall, 1, {0, 0, 0})};
   scene.bodies[1].fixed = true;
   for (const double speed : {400.0, 30.0}) {
     for (const bool is_stopped : {false, true}) {
