@@ -181,7 +181,7 @@ class TraceCommand : public Command {
                                           .reactions_every = reactions_ ? 1 : 0,
                                           .has_contacts = contacts_});
         if (reactions_) refuse_unreported(done, definition.scene, run.text);
-        if (contacts_ && !done.trajectory.has_contacts)
+        if (contacts_ && done.trajectory.contacts != ContactRecords::kept)
           throw InputError(fmt::format("{}: unsupported: the engine does not report contact forces here", run.text));
         const auto writer = reactions_ ? reactions_trace(definition.scene) : format.writer(definition.scene, contacts_);
         send_trajectory(done, definition.scene, static_cast<std::size_t>(count / every_) + 1, *writer, channel);

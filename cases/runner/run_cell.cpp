@@ -69,6 +69,17 @@ bool is_repeated(const Simulation& run, const Case& definition, const GridOption
          (run.cpu_seconds < kQuick || has_gate_on(definition, repeats) || has_option_for(repeats, options));
 }
 
+// A case with gates says what it is about. One without, such as a user's own, is asked for its contact forces, too,
+// unless it has so many bodies that the records could fill the memory.
+bool records_contacts(const Case& definition, const GridOptions& options) {
+  if (!anything_can_touch(definition.scene)) return false;
+  constexpr std::size_t kFewBodies = 64;  // in 2400 steps, 8 contacts of 100 bytes for each of them: 123 MB
+  const Names of_contacts = metrics_that_need(&MetricNeeds::contacts);
+  if (has_gate_on(definition, of_contacts) || has_option_for(of_contacts, options)) return true;
+  const bool says_nothing = definition.gates.empty() && options.only_metrics.empty();
+  return options.is_thorough && says_nothing && definition.scene.bodies.size() <= kFewBodies;
+}
+
 // Steps from one whose reactions are asked for to the next, as far as the truth is good for; 0: none is.
 long steps_between_reports(const Case& definition, double dt, const TruthFacts& facts, const GridOptions& options) {
   const bool is_wanted = options.only_metrics.empty() || is_needed(&MetricNeeds::reactions, definition, options);
@@ -118,14 +129,11 @@ JudgedCell run_once(const Cell& planned, const Case& definition, const EngineTab
   const Engine& engine = find_engine(engines, run_name.engine);
   const double leapfrog_stagger = method_of(engines.info_of(run_name.engine), run_name.settings).leapfrog_stagger;
   const bool is_timed = is_asked_for({"cost"}, definition, options);
-  const Names of_contacts = metrics_that_need(&MetricNeeds::contacts);
   const long reactions_every = truth ? steps_between_reports(definition, cell.dt.seconds, facts, options) : 0;
-  const Simulation run =
-      simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration,
-               {.is_timed = is_timed,
-                .reactions_every = reactions_every,
-                .has_contacts = anything_can_touch(scene) &&
-                                (has_gate_on(definition, of_contacts) || has_option_for(of_contacts, options))});
+  const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration,
+                                  {.is_timed = is_timed,
+                                   .reactions_every = reactions_every,
+                                   .has_contacts = records_contacts(definition, options)});
   if (!truth) check_start(run, scene);
   cell.settings = run.settings;
   cell.reduced_order = run.reduced_order;

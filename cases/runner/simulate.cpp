@@ -164,7 +164,9 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
   const auto is_reported = [&](long step) {
     return reactions_every > 0 && step >= 2 && (step - 2) % reactions_every == 0;
   };
-  run.trajectory.has_contacts = options.has_contacts && ask_for_contacts(*world);
+  if (options.has_contacts)
+    run.trajectory.contacts = ask_for_contacts(*world) ? ContactRecords::kept : ContactRecords::not_reported;
+  const bool has_contacts = run.trajectory.contacts == ContactRecords::kept;
   ask_for_reactions(*world);  // always: to be asked may change an engine's roundings
   if (!options.is_timed) run.cpu_seconds = std::numeric_limits<double>::quiet_NaN();
   for (long n = 0;; ++n) {
@@ -179,7 +181,7 @@ Simulation simulate(const Engine& engine, const Settings& settings, const Scene&
       run.trajectory.samples.push_back(
           {now.time, KeptBodies(now.bodies()),
            is_reported(n) ? reported_reactions(*world) : std::vector<ReportedReaction>(),
-           run.trajectory.has_contacts ? checked_contacts(*world, scene) : std::vector<ReportedContact>()});
+           has_contacts ? checked_contacts(*world, scene) : std::vector<ReportedContact>()});
     if (n == steps) {
       run.settings = world->settings_in_force();  // some worlds report settings that depend on the run
       run.reduced_order = reduced_order_of(*world);

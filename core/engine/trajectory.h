@@ -15,10 +15,12 @@ struct Sample {
   std::vector<ReportedContact> contacts = {};    // of the step that ended then; none if they were not asked for
 };
 
+enum class ContactRecords { not_asked_for, not_reported, kept };
+
 struct Trajectory {
   double dt = 0;  // s, the step size (samples may be several steps apart)
   std::vector<Sample> samples;
-  bool has_contacts = false;  // whether the engine was asked for its contacts, and reports them
+  ContactRecords contacts = ContactRecords::not_asked_for;
 };
 
 }  // namespace rigor

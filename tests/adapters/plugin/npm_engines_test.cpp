@@ -98,6 +98,47 @@ BOOST_AUTO_TEST_CASE(physx_has_a_static_friction) {
   BOOST_TEST(std::abs(moved_by(50, folder) - 0.5 * (50 - 39.24) / 10) < 0.02);
 }
 
+// A box and a ball that bounce, with friction that lets nothing slide.
+BOOST_AUTO_TEST_CASE(forces_that_cannon_es_reports_explain_the_motion) {
+  const Folder folder;
+  const std::string scene = folder.write("bouncing.toml", R"(title = "A ball on a box"
+source = "a test"
+[scene]
+gravity = [0, 0, -9.81]
+contact_default = { restitution = 0.5, friction = "infinite" }
+[[scene.body]]
+name = "box"
+mass = 2
+position = [0, 0, 0.3]
+velocity = [1, 0, 0]
+shape = { type = "box", size = [0.4, 0.2, 0.2] }
+[[scene.body]]
+name = "ball"
+mass = 1
+position = [0, 0, 0.6]
+velocity = [1, 0, 0]
+shape = { type = "sphere", radius = 0.1 }
+[[scene.body]]
+name = "ground"
+shape = { type = "plane", normal = [0, 0, 1], offset = 0 }
+[run]
+duration = 1
+dt = ["1/240"]
+[truth]
+kind = "none"
+[[gate]]
+metric = "contact_balance"
+max = 1e-9
+because = "roundings of 1000 N"
+[[gate]]
+metric = "force_peak"
+max = 1
+because = "named, so that a run without forces would fail"
+)");
+  const Answer answer = run(folder, "gate " + scene + " --engine cannon-es" + plugin("cannon-es"));
+  BOOST_TEST(has(answer.out, "1 held, 0 failed"), answer.out);
+}
+
 BOOST_AUTO_TEST_CASE(each_steps_exactly_once_by_dt) {
   const Folder folder;
   for (const auto& [file, name] : kEngines) {

@@ -301,8 +301,11 @@ BOOST_AUTO_TEST_CASE(an_impact_at_a_sample_may_be_reported_on_either_side_of_it)
 BOOST_AUTO_TEST_CASE(a_run_without_reports_says_so) {
   const Scene scene = ball_on_ground(0.5);
   Trajectory run = standing(scene, 3, [](int) { return std::vector<ReportedContact>(); });
-  run.has_contacts = false;
+  run.contacts = ContactRecords::not_reported;
   BOOST_TEST(result_of("contact_balance", scene, run).not_applicable == "the engine does not report contact forces");
+  run.contacts = ContactRecords::not_asked_for;
+  BOOST_TEST(result_of("contact_balance", scene, run).not_applicable ==
+             "contact forces are recorded where a gate of the case names them");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -13,7 +13,7 @@ constexpr double kStandingDt = 0.01;  // s
 // The scene stands still, and each step reports what `report` says of it.
 inline Trajectory standing(const Scene& scene, int steps,
                            const std::function<std::vector<ReportedContact>(int)>& report) {
-  Trajectory run{kStandingDt, {}, true};
+  Trajectory run{kStandingDt, {}, ContactRecords::kept};
   BodyTable table(scene.bodies.size());
   set_initial_state(scene, table.columns());
   for (int n = 0; n <= steps; ++n)

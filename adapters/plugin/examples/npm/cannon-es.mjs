@@ -60,9 +60,19 @@ function addJoint(world, scene, joint, bodies) {
   world.addConstraint(new CANNON.HingeConstraint(a.made, b.made, { pivotA, axisA, pivotB, axisB, collideConnected: true }));
 }
 
+// Of the last step. Each contact has two rows of friction after those of the contacts before it, or none at all.
+function contactsOf(world, bodies) {
+  const place = new Map(bodies.map(({ made }, i) => [made, i])), { contacts, frictionEquations: rows } = world;
+  return contacts.map(({ bi, bj, ni, ri, rj, multiplier }, k) => {
+    const point = bi.position.vadd(ri), gap = ni.dot(bj.position.vadd(rj).vsub(point)), force = ni.scale(multiplier);
+    for (const { t, multiplier: along } of rows.slice(2 * k, rows.length ? 2 * k + 2 : 0)) force.vadd(t.scale(along), force);
+    return { a: place.get(bi), b: place.get(bj), point: list(point), normal: list(ni), gap, force: list(force) };
+  });
+}
+
 serve({
   info: {
-    name: "cannon-es", version, precision: "double", calls: ["run"],
+    name: "cannon-es", version, precision: "double", calls: ["run", "contacts"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:hinge", "joints-with-contacts", "restitution", "friction:none",
                "friction:infinite", "contact:plane-sphere", "contact:box-plane", "contact:sphere-sphere", "contact:box-sphere",
                "contact:box-box"],
@@ -95,6 +105,7 @@ serve({
         });
         world.step(dt);
       },
+      contacts: () => contactsOf(world, bodies),
       rows: () => bodies.map(({ made, frame }) => {
         const { x, y, z, w } = made.quaternion;
         return [...list(made.position), ...times([w, x, y, z], back(frame)), ...list(made.velocity), ...list(made.angularVelocity)];

@@ -42,7 +42,9 @@ Vec3 slip_of(const ReportedContact& contact, BodyColumns bodies) {
 
 std::string why_no_contacts(const JudgedRun& run) {
   if (!anything_can_touch(run.scene)) return "no two bodies of the scene can touch";
-  if (!run.trajectory.has_contacts) return "the engine does not report contact forces";
+  if (run.trajectory.contacts == ContactRecords::not_asked_for)
+    return "contact forces are recorded where a gate of the case names them";
+  if (run.trajectory.contacts == ContactRecords::not_reported) return "the engine does not report contact forces";
   const std::vector<Sample>& samples = run.trajectory.samples;
   constexpr double kOneStep = 1.5;
   if (samples.size() < 2) return "the run has no finite step";
