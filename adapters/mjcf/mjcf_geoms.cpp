@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "adapters/mjcf/mjcf_import.h"
@@ -23,6 +24,47 @@ std::optional<Shape> hull_of_geom(MjcfImport& import, int geom) {
   }
 }
 
+Plane plane_of(const BodyPose& pose) {
+  const Vec3 normal = (pose.orientation * Vec3::UnitZ()).normalized();
+  return {normal, normal.dot(pose.position)};
+}
+
+// The heights of a file are shares of its relief.
+std::vector<std::vector<double>> heights_of(const MjcfImport& import, int field) {
+  const int first = import.whole("hfield_adr", field), columns = import.whole("hfield_ncol", field);
+  std::vector<std::vector<double>> heights(static_cast<std::size_t>(import.whole("hfield_nrow", field)));
+  int next = first;
+  for (std::vector<double>& along : heights) {
+    for (int column = 0; column < columns; ++column)
+      along.push_back(import.value("hfield_size", 4 * field + 2) * import.value("hfield_data", next++));
+  }
+  return heights;
+}
+
+// Level ground is a plane, which every engine has.
+std::optional<Shape> field_of_geom(MjcfImport& import, int geom, const BodyPose& pose) {
+  const int field = import.whole("geom_dataid", geom);
+  Heightfield out;
+  out.size = {2 * import.value("hfield_size", 4 * field), 2 * import.value("hfield_size", 4 * field + 1)};
+  out.heights = heights_of(import, field);
+  const double level = out.heights.front().front();
+  const bool is_level = std::all_of(out.heights.begin(), out.heights.end(), [=](const std::vector<double>& row) {
+    return std::all_of(row.begin(), row.end(), [=](double height) { return height == level; });
+  });
+  if (is_level) {
+    import.model.left_out.add(import.at("geom", geom), "a level height field",
+                              assumed(fmt::format("it goes on beyond its {:g} by {:g} m", out.size[0], out.size[1])));
+    return plane_of(pose * BodyPose{{0, 0, level}, Quat::Identity()});
+  }
+  try {
+    out.surface = height_surface(out.size, out.heights);
+    return out;
+  } catch (const InputError& error) {
+    import.lose("geom", geom, "a height field", error.what());
+    return {};
+  }
+}
+
 std::optional<Shape> shape_of(MjcfImport& import, int geom, const BodyPose& pose) {
   const Vec3 size = import.vector("geom_size", geom);
   switch (import.whole("geom_type", geom)) {
@@ -36,14 +78,14 @@ std::optional<Shape> shape_of(MjcfImport& import, int geom, const BodyPose& pose
       return Cylinder{size.x(), 2 * size.y()};
     case kEllipsoid:
       return Ellipsoid{size};
-    case kPlane: {
-      const Vec3 normal = (pose.orientation * Vec3::UnitZ()).normalized();
-      return Plane{normal, normal.dot(pose.position)};
-    }
+    case kPlane:
+      return plane_of(pose);
     case kMesh:
       return hull_of_geom(import, geom);
+    case kHeightField:
+      return field_of_geom(import, geom, pose);
     default:
-      import.lose("geom", geom, "a height field or a distance field", "no scene has it: nothing touches it");
+      import.lose("geom", geom, "a distance field", "no scene has it: nothing touches it");
       return {};
   }
 }

@@ -9,7 +9,7 @@
 
 namespace rigor {
 
-std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt, double tolerance) {
+std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt, const MujocoVersion& version) {
   static const std::map<std::string, std::string> integrators = {{"euler", "mjINT_EULER"},
                                                                  {"implicit", "mjINT_IMPLICIT"},
                                                                  {"implicitfast", "mjINT_IMPLICITFAST"},
@@ -17,7 +17,10 @@ std::vector<std::string> mujoco_calls(const Settings& settings, const std::strin
   const bool matched = settings.track == Track::matched;
   std::vector<std::string> calls = {fmt::format("m->opt.integrator = {};", integrators.at(settings.method))};
   if (matched)
-    calls.insert(calls.end(), {"m->opt.solver = mjSOL_NEWTON;", fmt::format("m->opt.tolerance = {:g};", tolerance)});
+    calls.insert(calls.end(),
+                 {"m->opt.solver = mjSOL_NEWTON;", fmt::format("m->opt.tolerance = {:g};", version.tolerance)});
+  if (matched && version.has_native_collisions)
+    calls.push_back("m->opt.disableflags |= mjDSBL_NATIVECCD;  // in a scene with a height field");
   if (const auto cone = word_to_set(settings, kMujocoCone)) {
     calls.push_back(fmt::format("m->opt.cone = {};", *cone == "elliptic" ? "mjCONE_ELLIPTIC" : "mjCONE_PYRAMIDAL"));
   }

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
 
-// `tolerance`: of the solver, on the track `matched`.
-std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt, double tolerance);
+std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt, const MujocoVersion& version);
 
 }  // namespace rigor

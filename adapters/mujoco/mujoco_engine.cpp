@@ -21,11 +21,11 @@ const Features kMujocoContacts = [] {
   Features contacts = contacts_among<Box, Capsule, Convex, Cylinder, Ellipsoid, Plane, Sphere>();
   contacts.erase(contact_feature<Box, Convex>());
   contacts.erase(contact_feature<Convex, Convex>());
-  return contacts;
+  return joined(contacts, contacts_on<Heightfield, Box, Capsule, Sphere>());
 }();
 
 std::vector<std::string> calls_of_mujoco(const Settings& settings, const std::string& dt) {
-  return mujoco_calls(settings, dt, kMujocoTolerance);
+  return mujoco_calls(settings, dt, kMujoco2);
 }
 
 std::vector<OptionInfo> options_of_all() {

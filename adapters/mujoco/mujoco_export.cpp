@@ -165,7 +165,7 @@ class Exporter {
       if (!body.shape) continue;
       for_each_part(*body.shape, [&](const Shape& shape, const BodyPose&) {
         const std::string name = part_name(body, part++);
-        if (const auto* convex = std::get_if<Convex>(&shape)) meshes += "    " + mjcf_mesh(*convex, name);
+        if (std::holds_alternative<Convex>(shape)) meshes += "    " + mjcf_asset(shape, name);
       });
     }
     if (!meshes.empty()) add("  <asset>\n{}  </asset>\n", meshes);

@@ -13,9 +13,6 @@
 namespace rigor {
 namespace {
 
-std::string text_of(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
-std::string text_of(const Quat& q) { return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z()); }
-
 std::string name_of(int body) { return fmt::format("b{}", body); }
 
 // MuJoCo's numbers of friction: sliding along two axes, spinning, rolling twice. Contacts of three rows look at the
@@ -47,40 +44,17 @@ std::string friction_of(const ContactLaw& law, bool of_a_pair) {
                    : fmt::format(R"(condim="{}" friction="{} {} {}")", dimensions, law.friction, spin, roll);
 }
 
-struct GeomOf {
-  const std::string& mesh;
-
-  std::string operator()(const Sphere& s) const { return fmt::format(R"(type="sphere" size="{}")", s.radius); }
-  std::string operator()(const Box& b) const { return fmt::format(R"(type="box" size="{}")", text_of(b.size / 2)); }
-  std::string operator()(const Capsule& c) const {
-    return fmt::format(R"(type="capsule" size="{} {}")", c.radius, c.length / 2);
-  }
-  std::string operator()(const Compound&) const { return ""; }  // its parts are written
-  std::string operator()(const Convex&) const { return fmt::format(R"(type="mesh" mesh="{}")", mesh); }
-  std::string operator()(const Cylinder& c) const {
-    return fmt::format(R"(type="cylinder" size="{} {}")", c.radius, c.length / 2);
-  }
-  std::string operator()(const Ellipsoid& e) const {
-    return fmt::format(R"(type="ellipsoid" size="{}")", text_of(e.radii));
-  }
-  std::string operator()(const SurfaceShape&) const { return ""; }  // no feature names it
-  std::string operator()(const Plane& p) const {
-    return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", text_of(p.normal * p.offset),
-                       text_of(p.normal));
-  }
-};
-
 class Writer {
  public:
-  Writer(const Scene& scene, const SpanningTree& tree, const Settings& settings, double tolerance)
-      : scene_(scene), tree_(tree), settings_(settings), tolerance_(tolerance) {}
+  Writer(const Scene& scene, const SpanningTree& tree, const Settings& settings, const MujocoVersion& version)
+      : scene_(scene), tree_(tree), settings_(settings), version_(version) {}
 
   std::string text() {
     add("<mujoco>\n");
     add(R"(<compiler angle="radian" balanceinertia="false" boundmass="0" boundinertia="0" autolimits="false"/>)");
     write_options();
     write_size();
-    write_meshes();
+    write_assets();
     add("<worldbody>\n");
     write_sites(kWorld);
     for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
@@ -104,15 +78,23 @@ class Writer {
   void write_options() {
     static const std::map<std::string, std::string> kIntegrators = {
         {"euler", "Euler"}, {"implicit", "implicit"}, {"implicitfast", "implicitfast"}, {"rk4", "RK4"}};
-    add(R"(<option gravity="{}" integrator="{}")", text_of(scene_.gravity), kIntegrators.at(settings_.method));
+    add(R"(<option gravity="{}" integrator="{}")", mjcf_text(scene_.gravity), kIntegrators.at(settings_.method));
     const bool matched = settings_.track == Track::matched;
     if (const auto cone = word_to_set(settings_, kMujocoCone)) add(R"( cone="{}")", *cone);
-    if (matched) add(R"( solver="Newton" tolerance="{:g}")", tolerance_);
+    if (matched) add(R"( solver="Newton" tolerance="{:g}")", version_.tolerance);
     for (const OptionInfo& option : {kMujocoIterations, kMujocoImpratio}) {
       if (const auto number = number_to_set(settings_, option)) add(R"( {}="{}")", option.name, *number);
     }
-    // As shipped, bodies that share a joint never touch. Here the scene alone says which pairs do.
-    add("><flag filterparent=\"disable\"/></option>\n");
+    // As shipped, bodies that share a joint never touch. Here the scene alone says which pairs do. A box that rests on
+    // a height field rocks and even jumps with MuJoCo 3's own detector: with that of MuJoCo 2.2 it rests to 1e-6 m/s.
+    const bool leaves_native = matched && version_.has_native_collisions && has_heights();
+    add("><flag filterparent=\"disable\"{}/></option>\n", leaves_native ? R"( nativeccd="disable")" : "");
+  }
+
+  bool has_heights() const {
+    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [](const Body& body) {
+      return body.collides && std::holds_alternative<Heightfield>(*body.shape);
+    });
   }
 
   // The memory for contacts and constraints is set once. In a heap a shape touches at most a dozen others, with up to
@@ -133,15 +115,14 @@ class Writer {
     add("<size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, rows * contacts + of_joints);
   }
 
-  void write_meshes() {
+  void write_assets() {
     add("<asset>\n");
     for (int i = 0; i < static_cast<int>(scene_.bodies.size()); ++i) {
       const Body& body = scene_.bodies[i];
       int part = 0;
       if (!body.collides) continue;
       for_each_part(*body.shape, [&](const Shape& shape, const BodyPose&) {
-        if (const auto* convex = std::get_if<Convex>(&shape)) add("{}", mjcf_mesh(*convex, mjcf_geom_name(i, part)));
-        ++part;
+        add("{}", mjcf_asset(shape, mjcf_geom_name(i, part++)));
       });
     }
     add("</asset>\n");
@@ -152,7 +133,8 @@ class Writer {
     const bool is_plane = body.shape && std::holds_alternative<Plane>(*body.shape);
     // A plane is given in W. An exclusion names bodies, so a plane that is kept apart belongs to its own body.
     if (is_plane && !is_kept_apart(index)) write_geom(index);
-    add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index), text_of(body.position), text_of(body.orientation));
+    add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index), mjcf_text(body.position),
+        mjcf_text(body.orientation));
     if (!is_plane || is_kept_apart(index)) write_geom(index);
     write_sites(index);
     add("</body>\n");
@@ -174,8 +156,8 @@ class Writer {
     const SpanningTree::Link& link = tree_.links[index];
     const BodyPose parent = scene_.pose(link.parent);
     add(R"(<body name="{}" pos="{}" quat="{}">)", name_of(index),
-        text_of(parent.orientation.conjugate() * (body.position - parent.position)),
-        text_of((parent.orientation.conjugate() * body.orientation).normalized()));
+        mjcf_text(parent.orientation.conjugate() * (body.position - parent.position)),
+        mjcf_text((parent.orientation.conjugate() * body.orientation).normalized()));
     const Mat3& I = body.inertia;
     add(R"(<inertial pos="0 0 0" mass="{}" fullinertia="{} {} {} {} {} {}"/>)", body.mass, I(0, 0), I(1, 1), I(2, 2),
         I(0, 1), I(0, 2), I(1, 2));
@@ -213,7 +195,7 @@ class Writer {
   // The points of springs and distance joints.
   void write_sites(int body) {
     const auto site = [&](const std::string& name, const Vec3& point) {
-      add(R"(<site name="{}" pos="{}"/>)", name, text_of(point));
+      add(R"(<site name="{}" pos="{}"/>)", name, mjcf_text(point));
     };
     for (std::size_t k = 0; k < scene_.springs.size(); ++k) {
       const Spring& spring = scene_.springs[k];
@@ -244,8 +226,8 @@ class Writer {
       add(R"(<joint name="{}" type="{}" pos="{}")",
           row.coordinate >= 0 ? fmt::format("j{}", row.coordinate)
                               : element_name(index, is_one_of_several ? k : kOnlyElement),
-          row.type, text_of(row.point ? point_in(body, *row.point) : Vec3::Zero().eval()));
-      if (row.axis) add(R"( axis="{}")", text_of(direction_in(body, *row.axis)));
+          row.type, mjcf_text(row.point ? point_in(body, *row.point) : Vec3::Zero().eval()));
+      if (row.axis) add(R"( axis="{}")", mjcf_text(direction_in(body, *row.axis)));
       if (row.coordinate >= 0) {
         const Joint& joint = scene_.joints[row.coordinate];
         add(R"( stiffness="{}" springref="{}" damping="{}" armature="{}" frictionloss="{}"{})", joint.stiffness,
@@ -333,7 +315,7 @@ class Writer {
     if (loop.equality == MjcfLoop::Equality::tendon) add("<tendon tendon1=\"d{}\"/>\n", index);
     if (loop.equality == MjcfLoop::Equality::weld) add("<weld body1=\"{}\"{}/>\n", name_of(first), other);
     for (const Vec3& point : loop.points)
-      add("<connect body1=\"{}\"{} anchor=\"{}\"/>\n", name_of(first), other, text_of(point_in(first, point)));
+      add("<connect body1=\"{}\"{} anchor=\"{}\"/>\n", name_of(first), other, mjcf_text(point_in(first, point)));
   }
 
   void write_pairs() {
@@ -357,30 +339,15 @@ class Writer {
   const Scene& scene_;
   const SpanningTree& tree_;
   const Settings& settings_;
-  double tolerance_;
+  const MujocoVersion& version_;
   std::string out_;
 };
 
 }  // namespace
 
-std::string mjcf_geom_name(int body, int part) {
-  return part == 0 ? fmt::format("g{}", body) : fmt::format("g{}p{}", body, part);
-}
-
-std::string mjcf_shape(const Shape& shape, const std::string& mesh) { return std::visit(GeomOf{mesh}, shape); }
-
-std::string mjcf_pose(const BodyPose& pose) {
-  return fmt::format(R"( pos="{}" quat="{}")", text_of(pose.position), text_of(pose.orientation));
-}
-
-std::string mjcf_mesh(const Convex& convex, const std::string& name) {
-  std::string points;
-  for (const Vec3& point : convex.hull->points) points += (points.empty() ? "" : "  ") + text_of(point);
-  return fmt::format("<mesh name=\"{}\" vertex=\"{}\"/>\n", name, points);
-}
-
-std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings, double tolerance) {
-  return Writer(scene, tree, settings, tolerance).text();
+std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings,
+                        const MujocoVersion& version) {
+  return Writer(scene, tree, settings, version).text();
 }
 
 }  // namespace rigor

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "adapters/common/spanning_tree.h"
+#include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/engine.h"
 
 namespace rigor {
@@ -19,10 +20,15 @@ namespace rigor {
 // Bodies that hang on each other: TinyXML-2, which reads for MuJoCo, nests a hundred elements.
 inline constexpr int kDeepestBody = 95;
 
-// The attributes of a shape that is no compound. A hull refers to the mesh of this name, the element of mjcf_mesh().
-std::string mjcf_shape(const Shape& shape, const std::string& mesh);
+std::string mjcf_text(const Vec3& v);
+std::string mjcf_text(const Quat& q);
+// The attributes of a shape that is no compound. A hull and a height field refer to the asset of this name.
+std::string mjcf_shape(const Shape& shape, const std::string& asset);
 std::string mjcf_pose(const BodyPose& pose);
-std::string mjcf_mesh(const Convex& convex, const std::string& name);
+// The element of that asset; empty for a shape without one.
+std::string mjcf_asset(const Shape& shape, const std::string& name);
+// mjModel's hfield_data, of all height fields in the order of the bodies. MuJoCo keeps them in single precision.
+std::vector<float> mujoco_heights(const Scene& scene);
 
 // Of the part of a body's shape with this number.
 std::string mjcf_geom_name(int body, int part);
@@ -62,7 +68,7 @@ struct MjcfLoop {
 };
 MjcfLoop mjcf_loop(const Joint& joint);
 
-// `tolerance`: of the solver, on the track `matched`.
-std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings, double tolerance);
+std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings,
+                        const MujocoVersion& version);
 
 }  // namespace rigor

@@ -38,8 +38,10 @@ std::optional<MujocoInertia> inertia_to_set(const Body& body) {
 
 MujocoModel mujoco_model(const Scene& scene, const SpanningTree& tree, const Settings& settings) {
   MujocoModel made;
-  made.model = mujoco_library::compile(mujoco_mjcf(scene, tree, settings, kMujocoTolerance));
+  made.model = mujoco_library::compile(mujoco_mjcf(scene, tree, settings, kMujoco2));
   mjModel& model = *made.model;
+  const std::vector<float> heights = mujoco_heights(scene);
+  std::copy(heights.begin(), heights.end(), model.hfield_data);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const int id = mj_name2id(&model, mjOBJ_BODY, fmt::format("b{}", i).c_str());
     made.body.push_back(id);

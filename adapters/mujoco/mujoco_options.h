@@ -51,9 +51,14 @@ inline const OptionInfo kMujocoContactMargin{.name = "contact-margin",
                                              .min = 0,
                                              .max = 1,
                                              .by_default = 0.0};
-// The solver's on the track `matched`. With 1e-15 the line search of MuJoCo 2.2 fails now and then. MuJoCo 3 ends its
-// solver while contact forces are off by up to 0.03 N with 1e-10, and by 1e-9 N with 0.
-inline constexpr double kMujocoTolerance = 1e-10, kMujoco3Tolerance = 0;
+// What the versions of MuJoCo need on the track `matched`.
+struct MujocoVersion {
+  double tolerance;            // of the solver
+  bool has_native_collisions;  // MuJoCo 3's own detector beside libccd
+};
+// With 1e-15 the line search of MuJoCo 2.2 fails now and then. MuJoCo 3 ends its solver while contact forces are off by
+// up to 0.03 N with 1e-10, and by 1e-9 N with 0.
+inline constexpr MujocoVersion kMujoco2{1e-10, false}, kMujoco3{0, true};
 
 inline const OptionInfo kMujocoIterations{.name = "iterations",
                                           .meaning = "of the solver, at most",

@@ -92,7 +92,7 @@ std::vector<std::string> mujoco3_calls(const Settings& settings, const std::stri
   Settings halved = settings;
   if (is_named(settings, kMujocoContactMargin))
     halved.options[kMujocoContactMargin.name] = fmt::format("{}", number_option(settings, kMujocoContactMargin) / 2);
-  return mujoco_calls(halved, dt, kMujoco3Tolerance);
+  return mujoco_calls(halved, dt, kMujoco3);
 }
 
 }  // namespace
@@ -101,9 +101,10 @@ Mujoco3Engine::Mujoco3Engine(const std::string& folder) : ProcessEngine(start_of
 
 WorldTerms Mujoco3Engine::terms_of(const Scene& scene, const Settings& settings) const {
   const SpanningTree tree = spanning_tree(scene);
-  Json mjcf = {{"text", mujoco_mjcf(scene, tree, settings, kMujoco3Tolerance)},
+  Json mjcf = {{"text", mujoco_mjcf(scene, tree, settings, kMujoco3)},
                {"contacts", values_json(mujoco_contact_values(settings))},
                {"stiff", settings.track == Track::matched ? values_json(mujoco_stiff_values()) : Json::array()},
+               {"heights", mujoco_heights(scene)},
                {"inertias", Json::array()},
                {"speeds", Json::array()}};
   for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {

@@ -54,7 +54,7 @@ std::vector<Resting> resting_pairs() {
                                       {box, sphere, 1},       {sphere, sphere, 1}, {capsule, sphere, 1.5},
                                       {sphere, capsule, 1.5}, {box, capsule, 1.5}, {capsule, capsule, 2}};
   pairs.insert(pairs.end(), basic.begin(), basic.end());
-  for (const auto& [above, height] : {std::pair<Shape, double>{sphere, 0.5}, {box, 0.5}, {capsule, 1}, {cube, 0.5}}) {
+  for (const auto& [above, height] : all) {
     pairs.push_back({above, flat_ground(), height});
     pairs.push_back({above, slab(), height + 0.2});
   }

@@ -82,6 +82,9 @@ function settingsOf(model, method, mjcf) {
     "friction cone": option.cone === 1 ? "elliptic" : "pyramidal",
     impratio: `${option.impratio}: friction is that much stiffer than contact`,
     springs: "tendons, evaluated at each stage",
+    ...(model.nhfield > 0 && {
+      "collisions with heights": option.disableflags & mujoco.mjtDisableBit.mjDSBL_NATIVECCD.value ? "by libccd" : "by MuJoCo's own detector",
+    }),
     ...(model.ngeom > 0 && {
       contacts: words(part(model.geom_solref, 0, 2), part(model.geom_solimp, 0, 5)),
       restitution: `by the damping ratio ${model.geom_solref[1]} of contacts`,
@@ -158,6 +161,7 @@ class World {
       model.body_inertia.set(inertia.slice(0, 3), 3 * this.ids[i]), model.body_iquat.set(inertia.slice(3), 4 * this.ids[i]);
       model.body_sameframe[this.ids[i]] = 0;
     });
+    if (mjcf.heights.length) model.hfield_data.set(mjcf.heights);
     set(model, mjcf.contacts);
     // Constants that follow from the inertias, worked out at the pose of t = 0, which the data then holds again.
     mujoco.mj_setConst(model, data), mujoco.mj_resetData(model, data);

@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "adapters/mujoco/mujoco_calls.h"
-#include "adapters/mujoco/mujoco_options.h"
 #include "adapters/mujoco/mujoco_library.h"
+#include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/engine_failure.h"
 #include "core/engine/run_name.h"
 #include "tests/adapters/free_body_measures.h"
@@ -306,7 +306,7 @@ BOOST_AUTO_TEST_CASE(the_calls_of_a_run_set_the_same) {
   Settings settings;
   settings.method = "euler";
   settings.options = {{"contact-damping", "0.3"}, {"contact-margin", "0.01"}};
-  const std::vector<std::string> calls = mujoco_calls(settings, "0.001", kMujocoTolerance);
+  const std::vector<std::string> calls = mujoco_calls(settings, "0.001", kMujoco2);
   for (const std::string call : {"m->geom_solref[mjNREF*i + 1] = 0.3;", "m->geom_margin[i] = 0.01;"}) {
     const bool is_there = std::any_of(calls.begin(), calls.end(),
                                       [&](const std::string& line) { return line.find(call) != std::string::npos; });
