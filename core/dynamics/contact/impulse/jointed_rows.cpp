@@ -9,6 +9,9 @@ namespace rigor {
 namespace {
 
 constexpr int kSweeps = 4;  // over all rows, in each of the two passes
+// rad: a limit that is farther away is no soft one. Only if its lever [m] were shorter than a ten millionth of the
+// scene's length would it touch.
+constexpr double kFarAngle = 1e-3;
 
 }  // namespace
 
@@ -16,8 +19,10 @@ JointedRows::JointedRows(const Scene& scene, const System& system, Joints& joint
     : system_(system),
       joints_(joints),
       through_joints_(system, joints),
+      place_(system.size()),
       velocities_(system.size(), Vec6::Zero()),
       loaded_(velocities_) {
+  place_bodies();
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
     std::vector<Motor> motors;
@@ -29,27 +34,48 @@ JointedRows::JointedRows(const Scene& scene, const System& system, Joints& joint
   }
 }
 
+void JointedRows::place_bodies() {
+  std::size_t next = 0;
+  for (int c = 0; c < joints_.components(); ++c) {
+    of_component_.push_back({next, joints_.bodies_of(c).size()});
+    for (const int body : joints_.bodies_of(c)) place_[static_cast<std::size_t>(body)] = next++;
+  }
+  for (int body = 0; body < static_cast<int>(place_.size()); ++body)
+    if (joints_.component_of(body) < 0) place_[static_cast<std::size_t>(body)] = next++;
+}
+
+JointedRows::Span JointedRows::span_of(int body) const {
+  if (body == kWorld || system_.bodies[body].fixed) return {};
+  const int component = joints_.component_of(body);
+  return component < 0 ? Span{place_[static_cast<std::size_t>(body)], 1}
+                       : of_component_[static_cast<std::size_t>(component)];
+}
+
 void JointedRows::assign(BodyColumns state, const std::vector<ContactConstraint>& contacts, double impulse_scale) {
-  joints_.velocity_impulse(state);  // for its factor
-  through_joints_.set_pose(state);
+  pose_ = state;
+  through_joints_.set_pose(std::as_const(pose_).columns());
+  factorise();
   rows_.clear(), responses_.clear();
   for (const ContactConstraint& contact : contacts) {
     Row row = contact_row(state, contact);
     row.impulse[0] = impulse_scale * contact.normal_impulse;
     for (int d = 1; d < 3; ++d) row.impulse[d] = impulse_scale * row.J[d][0].head<3>().dot(contact.friction_impulse);
-    add(row);
+    rows_.push_back(row);
   }
   contacts_ = rows_.size();
   for (Coordinate& at : coordinates_) {
     at.first_row = rows_.size();
     const JointCoordinate::Value value = at.coordinate.at(state);
-    for (const double sign : {1.0, -1.0, 1.0}) {
-      add(coordinate_row(at.coordinate, value, sign, at.restitution));
-      rows_.back().lever = lever_of(rows_.back(), at.coordinate);
-    }
+    for (const double sign : {1.0, -1.0, 1.0})
+      rows_.push_back(coordinate_row(at.coordinate, value, sign, at.restitution));
+    rows_.back().kind = Kind::motor;
     rows_[at.first_row].impulse[0] = impulse_scale * at.lower_impulse;
     rows_[at.first_row + 1].impulse[0] = impulse_scale * at.upper_impulse;
     rows_[at.first_row + 2].impulse[0] = impulse_scale * at.motor_impulse;
+  }
+  are_restitutions_ = std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.restitution > 0; });
+  for (Row& row : rows_) {
+    if (std::any_of(row.impulse, row.impulse + row.directions, [](double p) { return p != 0; })) know(row);
   }
 }
 
@@ -95,34 +121,54 @@ JointedRows::Row JointedRows::contact_row(BodyColumns state, const ContactConstr
 // The row of x for a lower limit and a motor, of -x for an upper limit.
 JointedRows::Row JointedRows::coordinate_row(const JointCoordinate& coordinate, const JointCoordinate::Value& at,
                                              double sign, double restitution) const {
-  Row row{.body = {coordinate.a(), coordinate.b()}, .directions = 1};
+  Row row{.kind = Kind::limit, .body = {coordinate.a(), coordinate.b()}, .directions = 1};
+  row.turns = coordinate.turns();
   row.J[0][0] = sign * joined(-at.force, at.torque_a);
   row.J[0][1] = sign * joined(at.force, at.torque_b);
   row.restitution = restitution;
   return row;
 }
 
-// With the part of the row's impulses that the joints allow; `ends` are those on one body alone.
-void JointedRows::add(Row row) {
-  row.first_response = responses_.size();
+void JointedRows::factorise() {
+  joints_.velocity_impulse(std::as_const(pose_).columns());
+  is_factor_here_ = true;
+}
+
+// The part of the row's impulses that the joints allow, at the pose of the row itself: where the joints allow no motion
+// along it, that is exactly none.
+void JointedRows::know(Row& row) {
+  if (!is_factor_here_) factorise();
+  row.is_known = true;
+  row.moved[0] = span_of(row.body[0]), row.moved[1] = span_of(row.body[1]);
+  const bool is_same = row.moved[0].count > 0 && row.moved[0].first == row.moved[1].first;
+  if (is_same) row.moved[1] = {};
+  row.responses = responses_.size();
   const std::vector<int> bodies = through_joints_.moved_by(row.body[0], row.body[1]);
-  for (const int body : bodies) responses_.emplace_back().body = body;
   for (int d = 0; d < row.directions; ++d) {
     const std::vector<Vec6>& change = through_joints_.of(bodies, row.body[0], row.J[d][0], row.body[1], row.J[d][1]);
-    for (std::size_t i = 0; i < bodies.size(); ++i) responses_[row.first_response + i].by[d] = change[bodies[i]];
+    for (const int body : bodies) responses_.push_back(change[static_cast<std::size_t>(body)]);
   }
-  row.last_response = responses_.size();
   find_masses(row);
-  rows_.push_back(row);
+  row.lever = lever_of(row);
+}
+
+// Whether it touches or could within the sub-step. A row that does not has no part in impacts and is not soft.
+bool JointedRows::may_act(const Row& row) const {
+  const double near = row.turns ? kFarAngle : parameters_.touching;
+  return row.kind != Kind::motor && (row.gap <= near || row.gap < 2 * parameters_.h * row.approach);
 }
 
 void JointedRows::find_masses(Row& row) const {
+  const std::size_t count = row.moved[0].count + row.moved[1].count;
   const auto K = [&](int d, int by) {
     double sum = 0;
-    for (std::size_t i = row.first_response; i < row.last_response; ++i) {
-      for (int end = 0; end < 2; ++end) {
-        if (responses_[i].body == row.body[end]) sum += row.J[d][end].dot(responses_[i].by[by]);
-      }
+    for (int end = 0; end < 2; ++end) {
+      if (span_of(row.body[end]).count == 0) continue;
+      const std::size_t place = place_[static_cast<std::size_t>(row.body[end])];
+      const Span &first = row.moved[0], &second = row.moved[1];
+      const std::size_t at =
+          place - first.first < first.count ? place - first.first : first.count + place - second.first;
+      sum += row.J[d][end].dot(responses_[row.responses + static_cast<std::size_t>(by) * count + at]);
     }
     return sum;
   };
@@ -145,8 +191,8 @@ void JointedRows::find_masses(Row& row) const {
 }
 
 // The radius at which the bodies' mass would have the inertia that the row feels.
-double JointedRows::lever_of(const Row& row, const JointCoordinate& coordinate) const {
-  if (!coordinate.turns()) return 1;
+double JointedRows::lever_of(const Row& row) const {
+  if (!row.turns) return 1;
   double inverse_mass = 0;
   for (const int body : row.body) inverse_mass += body == kWorld ? 0 : system_.bodies[body].inverse_mass;
   return std::sqrt(row.mass * inverse_mass);
@@ -154,21 +200,29 @@ double JointedRows::lever_of(const Row& row, const JointCoordinate& coordinate) 
 
 void JointedRows::load_velocities(BodyColumns state) {
   for (std::size_t i = 0; i < state.size(); ++i) loaded_[i] = joined(state.velocity(i), state.angular_velocity(i));
-  velocities_ = loaded_;
-  energy_before_ = twice_energy_of(system_, state, velocities_);
+  for (std::size_t i = 0; i < state.size(); ++i) velocities_[place_[i]] = loaded_[i];
+  if (are_restitutions_) energy_before_ = twice_energy_of(system_, state, loaded_);
 }
 
 double JointedRows::speed(const Row& row, int direction) const {
   double sum = 0;
   for (int end = 0; end < 2; ++end) {
-    if (row.body[end] != kWorld) sum += row.J[direction][end].dot(velocities_[row.body[end]]);
+    if (row.body[end] != kWorld)
+      sum += row.J[direction][end].dot(velocities_[place_[static_cast<std::size_t>(row.body[end])]]);
   }
   return sum;
 }
 
 void JointedRows::apply(const Row& row, int direction, double impulse) {
-  for (std::size_t i = row.first_response; i < row.last_response; ++i)
-    velocities_[responses_[i].body] += impulse * responses_[i].by[direction];
+  using Numbers = Eigen::Map<Eigen::VectorXd>;
+  const std::size_t count = row.moved[0].count + row.moved[1].count;
+  const Vec6* by = responses_.data() + row.responses + static_cast<std::size_t>(direction) * count;
+  for (const Span& span : row.moved) {
+    const auto numbers = static_cast<Eigen::Index>(6 * span.count);
+    Numbers(velocities_[span.first].data(), numbers) +=
+        impulse * Eigen::Map<const Eigen::VectorXd>(by->data(), numbers);
+    by += span.count;
+  }
 }
 
 double JointedRows::contact_gap(const Row& row, BodyColumns state) const {
@@ -195,9 +249,10 @@ void JointedRows::prepare(BodyColumns state, double t, const SolverParameters& p
   for (Coordinate& at : coordinates_) prepare_coordinate(at, state, t);
   for (Row& row : rows_) {
     row.approach = -speed(row, 0);
+    if (!row.is_known && may_act(row)) know(row);
     row.bias = bias_of(row);
-    row.is_impact =
-        row.lever * row.approach > parameters.restitution_threshold && row.gap < 2 * parameters.h * row.approach;
+    row.is_impact = row.is_known && row.lever * row.approach > parameters.restitution_threshold &&
+                    row.gap < 2 * parameters.h * row.approach;
   }
   for (const Coordinate& at : coordinates_) rows_[at.first_row + 2].is_impact = false;
 }
@@ -210,6 +265,7 @@ double JointedRows::bias_of(const Row& row) const {
 }
 
 void JointedRows::warm_start() {
+  is_factor_here_ = false;  // the integrator has used the joints since
   for (const Row& row : rows_) {
     for (int d = 0; d < row.directions; ++d) {
       if (row.impulse[d] != 0) apply(row, d, row.impulse[d]);
@@ -234,6 +290,10 @@ void JointedRows::solve_friction(Row& row) {
 }
 
 void JointedRows::solve_biased(Row& row) {
+  if (!row.is_known) {
+    if (speed(row, 0) + row.bias >= 0) return;  // it would get no impulse
+    know(row);
+  }
   const bool soft = is_soft(row);
   const double mass_scale = soft ? parameters_.mass_scale : 1, impulse_scale = soft ? parameters_.impulse_scale : 0;
   const double p = row.impulse[0];
@@ -244,6 +304,8 @@ void JointedRows::solve_biased(Row& row) {
 void JointedRows::solve_motors() {
   for (const Coordinate& at : coordinates_) {
     Row& row = rows_[at.first_row + 2];
+    if (at.most_impulse == 0 && row.impulse[0] == 0) continue;
+    if (!row.is_known) know(row);
     const double p =
         std::clamp(row.impulse[0] - (speed(row, 0) - at.speed) * row.mass, -at.most_impulse, at.most_impulse);
     apply(row, 0, p - row.impulse[0]);
@@ -278,14 +340,24 @@ void JointedRows::relax() {
 }
 
 void JointedRows::apply_restitution(BodyColumns state) {
-  const std::vector<Vec6> without = velocities_;
   for (Row& row : rows_) std::copy(std::begin(row.impulse), std::end(row.impulse), row.without_restitution);
+  restitution_share_ = 1;
+  if (!are_restitutions_) return;
+  const std::vector<Vec6> without = by_body();
   sweep_impacts([&](Row& row) {
     if (row.restitution == 0 || row.impulse[0] == 0) return;
     solve_normal(row, row.impulse[0] + (row.restitution * row.approach - speed(row, 0)) * row.mass);
     solve_friction(row);
   });
-  restitution_share_ = limit_energy(system_, state, energy_before_, without, velocities_);
+  std::vector<Vec6> with = by_body();
+  restitution_share_ = limit_energy(system_, state, energy_before_, without, with);
+  for (std::size_t i = 0; i < with.size(); ++i) velocities_[place_[i]] = with[i];
+}
+
+std::vector<Vec6> JointedRows::by_body() const {
+  std::vector<Vec6> velocities(velocities_.size());
+  for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = velocities_[place_[i]];
+  return velocities;
 }
 
 // Until no impact's velocity changes by more than the tolerance.

@@ -2,6 +2,7 @@
 // An impulse of a row acts through the joints. V are the velocities and W = (1 - M⁻¹ Jᵀ S⁻¹ J) M⁻¹ the inverse masses
 // that the joints leave. The impulse changes V by W rowᵀ p, for all bodies that are connected to the row's two. The
 // velocities thus satisfy the joints after each single impulse, and a row's effective mass is that of the mechanism.
+// W rowᵀ and the mass are worked out where a row first acts: a robot has many limits, and few joints are at one.
 #pragma once
 
 #include <vector>
@@ -32,7 +33,7 @@ class JointedRows {
   // No further than the energy of the loaded velocities.
   void apply_restitution(BodyColumns state);
   // The change of a body's velocity (v, w) since load_velocities().
-  Vec6 change(std::size_t body) const { return velocities_[body] - loaded_[body]; }
+  Vec6 change(std::size_t body) const { return velocities_[place_[body]] - loaded_[body]; }
   // Of limits and motors. Impulses of contacts are among the contacts that they were stored to.
   template <typename Archive>
   void archive_state(Archive& archive) {
@@ -42,11 +43,12 @@ class JointedRows {
   }
 
  private:
-  struct Response {  // of a body's velocity, to unit impulses of the row's directions
-    int body = kWorld;
-    Vec6 by[3] = {Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+  struct Span {  // of velocities_: the bodies that joints connect with one, or that one alone
+    std::size_t first = 0, count = 0;
   };
+  enum class Kind { contact, limit, motor };
   struct Row {
+    Kind kind = Kind::contact;
     int body[2] = {kWorld, kWorld};
     int directions = 1;  // a normal alone, or with two tangents
     Vec6 J[3][2] = {{Vec6::Zero(), Vec6::Zero()},
@@ -56,7 +58,10 @@ class JointedRows {
     Vec3 normal = Vec3::Zero(),
          apart = Vec3::Zero();  // of a contact: unit; m, from b's point to a's when contacts were updated
     double initial_gap = 0, friction = 0, restitution = 0;
-    std::size_t first_response = 0, last_response = 0;
+    bool turns = false;             // an angle
+    bool is_known = false;          // what follows, up to the tangents' mass
+    Span moved[2] = {};             // by its impulses
+    std::size_t responses = 0;      // the first of those of direction 0; the others' follow
     double mass = 0;                // kg, along the normal; kg m² for an angle
     double lever = 1;               // m per rad for an angle: thresholds are speeds and lengths
     TangentMass tangent_mass = {};  // kg
@@ -77,16 +82,21 @@ class JointedRows {
   Row contact_row(BodyColumns state, const ContactConstraint& contact) const;
   Row coordinate_row(const JointCoordinate& coordinate, const JointCoordinate::Value& at, double sign,
                      double restitution) const;
-  void add(Row row);
+  void place_bodies();
+  Span span_of(int body) const;
+  void factorise();
+  bool may_act(const Row& row) const;
+  void know(Row& row);
   void find_masses(Row& row) const;
-  double lever_of(const Row& row, const JointCoordinate& coordinate) const;
+  double lever_of(const Row& row) const;
   double speed(const Row& row, int direction) const;  // of the row
   void apply(const Row& row, int direction, double impulse);
   void solve_normal(Row& row, double impulse);
   void solve_friction(Row& row);
   // Whether it rests or overlaps; a fast contact does not count, even if it is closed.
   bool is_soft(const Row& row) const {
-    return row.lever * row.gap <= parameters_.touching && row.lever * row.approach <= parameters_.restitution_threshold;
+    return row.is_known && row.lever * row.gap <= parameters_.touching &&
+           row.lever * row.approach <= parameters_.restitution_threshold;
   }
   double bias_of(const Row& row) const;
   void solve_biased(Row& row);
@@ -95,19 +105,25 @@ class JointedRows {
   void for_each_one_sided(const Visit& visit);
   template <typename Solve>
   void sweep_impacts(const Solve& solve);
+  std::vector<Vec6> by_body() const;
   double contact_gap(const Row& row, BodyColumns state) const;
   void prepare_coordinate(Coordinate& coordinate, BodyColumns state, double t);
 
   const System& system_;
   Joints& joints_;
   std::vector<Row> rows_;
+  BodyTable pose_;               // of the rows
+  bool is_factor_here_ = false;  // whether the joints' last factor is of that pose
   ImpulseResponses through_joints_;
-  std::vector<Response> responses_;
-  std::size_t contacts_ = 0;  // rows
+  std::vector<Vec6> responses_;  // of the bodies in a row's spans, to a unit impulse of one of its directions
+  std::size_t contacts_ = 0;     // rows
   std::vector<Coordinate> coordinates_;
-  std::vector<Vec6> velocities_, loaded_;  // by body
-  double energy_before_ = 0;               // twice that of the loaded velocities, J
-  double restitution_share_ = 1;           // of the impulses of restitution, that their energy allows
+  std::vector<std::size_t> place_;         // by body, among the velocities: those in one component stand together
+  std::vector<Vec6> velocities_, loaded_;  // by place; by body
+  std::vector<Span> of_component_;
+  bool are_restitutions_ = false;
+  double energy_before_ = 0;      // twice that of the loaded velocities, J
+  double restitution_share_ = 1;  // of the impulses of restitution, that their energy allows
   SolverParameters parameters_{};
 };
 
