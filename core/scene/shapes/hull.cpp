@@ -182,6 +182,10 @@ std::shared_ptr<const Hull> hull_of(const std::vector<Vec3>& points) {
   measure(*hull);
   if (!find_edges(*hull))
     throw InputError("Qhull found no closed hull of the points; allowed: points that are not nearly flat");
+  for (const Hull::Edge& edge : hull->edges) {
+    const auto normal = [&](int face) { return hull->faces[static_cast<std::size_t>(face)].normal; };
+    hull->least_cosine = std::min(hull->least_cosine, normal(edge.left).dot(normal(edge.right)));
+  }
   return hull;
 }
 

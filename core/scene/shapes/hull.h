@@ -34,6 +34,7 @@ struct Hull {
   Mat3 inertia = Mat3::Zero();  // m⁵: about the centre, of unit density
   double bounding_radius = 0;   // m, about the origin
   double inradius = 0;          // m, from the centre to the nearest face
+  double least_cosine = 1;      // between the normals of faces that share an edge
 
   std::size_t furthest(const Vec3& n) const;  // the corner with the largest n · x
   TriangleMesh drawn() const;
