@@ -46,6 +46,10 @@ std::vector<std::string> mujoco_calls(const Settings& settings, const std::strin
       calls.push_back(
           fmt::format("for (int i = 0; i < m->ngeom; ++i) m->geom_{} = {};", place, number_option(settings, option)));
   }
+  if (is_named(settings, kMujocoServo) && word_option(settings, kMujocoServo) == "native") {
+    calls.push_back("// each servo is an actuator: gaintype fixed, gainprm 1, biastype affine, biasprm 0 -kp -kd");
+    calls.push_back("d->ctrl[i] = kp * target + kd * target_speed;");
+  }
   calls.push_back(fmt::format("m->opt.timestep = {}; mj_step(m, d);", dt));
   return calls;
 }

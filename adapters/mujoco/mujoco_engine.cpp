@@ -100,11 +100,13 @@ std::vector<MethodInfo> mujoco_methods() { return {euler(), implicit(), rk4()}; 
 
 EngineInfo MujocoEngine::info() const {
   const int version = mj_version();  // 222 is 2.2.2
+  std::vector<MethodInfo> methods = mujoco_methods();
+  for (MethodInfo& method : methods) method.options.push_back(kMujocoServo);
   return {.name = "mujoco",
           .version = fmt::format("{}.{}.{}", version / 100, version / 10 % 10, version % 10),
           .precision = sizeof(mjtNum) == sizeof(double) ? "double" : "single",
           .features = mujoco_features(),
-          .methods = mujoco_methods()};
+          .methods = methods};
 }
 
 std::unique_ptr<World> MujocoEngine::load(const Scene& scene, const Settings& settings) const {
@@ -114,8 +116,10 @@ std::unique_ptr<World> MujocoEngine::load(const Scene& scene, const Settings& se
   return std::make_unique<MujocoWorld>(scene, settings);
 }
 
-// Neither cone nor solver touches smooth motion.
+// Neither cone nor solver touches smooth motion. At the start of a step both kinds of servos have the same effort; the
+// twins of the other methods do not know what it is later.
 std::string MujocoEngine::twin(const Settings& settings) const {
+  if (word_option(settings, kMujocoServo) == "native" && settings.method != "euler") return "";
   return fmt::format("core:mujoco-{}-twin", settings.method);
 }
 

@@ -1,5 +1,6 @@
 #include "adapters/mujoco/mujoco_mjcf.h"
 #include "adapters/mujoco/mujoco_options.h"
+#include "adapters/mujoco/mujoco_servos.h"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,9 @@ class Writer {
     write_tendons();
     write_loops();
     write_pairs();
+    if (has_native_servos(scene_, settings_))
+      add("{}", mjcf_actuators(
+                    scene_, [](int joint) { return element_name(joint, kOnlyElement); }, sign_of_joint()));
     add("</mujoco>\n");
     return std::move(out_);
   }
@@ -266,6 +270,11 @@ class Writer {
     add("\n</tendon>\n");
   }
 
+  // Of MuJoCo's coordinate, against the scene's.
+  std::function<double(int)> sign_of_joint() const {
+    return [this](int joint) { return scene_.joints[joint].b == body_on(scene_, tree_, joint) ? 1.0 : -1.0; };
+  }
+
   void write_loops() {
     add("<equality>\n");
     for (const int k : tree_.loops) write_loop(k);
@@ -273,11 +282,8 @@ class Writer {
       for (const int joint : {coupling.joint, coupling.to})
         if (closes_loop(scene_, tree_, joint)) refuse(joint);
     }
-    const auto sign_of = [&](int joint) {
-      return scene_.joints[joint].b == body_on(scene_, tree_, joint) ? 1.0 : -1.0;
-    };
     const auto name = [](int joint, std::size_t element) { return element_name(joint, element); };
-    for (const MjcfCoupling& row : mjcf_couplings(scene_, tree_, name, sign_of))
+    for (const MjcfCoupling& row : mjcf_couplings(scene_, tree_, name, sign_of_joint()))
       add("<joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\"/>\n", row.first, row.second, row.constant,
           row.ratio);
     add("</equality>\n");

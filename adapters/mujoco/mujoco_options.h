@@ -51,6 +51,12 @@ inline const OptionInfo kMujocoContactMargin{.name = "contact-margin",
                                              .min = 0,
                                              .max = 1,
                                              .by_default = 0.0};
+inline const OptionInfo kMujocoServo{
+    .name = "servo",
+    .meaning = "who computes a servo's effort: Rigor before each step, or MuJoCo's actuators",
+    .choices = {"computed", "native"},
+    .by_default = "computed"};
+
 // What the versions of MuJoCo need on the track `matched`.
 struct MujocoVersion {
   double tolerance;            // of the solver

@@ -6,19 +6,26 @@
 #include <limits>
 
 #include "adapters/mujoco/mujoco_mjcf.h"
+#include "adapters/mujoco/mujoco_servos.h"
 #include "adapters/mujoco/mujoco_values.h"
 #include "core/dynamics/model/loads/loads.h"
 
 namespace rigor {
 namespace {
 
-// What is left for the loads that MuJoCo does not know: the timed forces.
-Scene only_forces(const Scene& scene) {
+std::vector<Motor> servos_of(const Scene& scene) {
+  std::vector<Motor> servos;
+  std::copy_if(scene.motors.begin(), scene.motors.end(), std::back_inserter(servos),
+               [](const Motor& motor) { return motor.servo.has_value(); });
+  return servos;
+}
+
+// What is left for the loads that MuJoCo does not know: the timed forces, and servos that it is not to have.
+Scene only_forces(const Scene& scene, const Settings& settings) {
   Scene left;
   left.bodies = scene.bodies, left.forces = scene.forces, left.joints = scene.joints;
   for (Joint& joint : left.joints) joint.stiffness = joint.damping = 0;
-  std::copy_if(scene.motors.begin(), scene.motors.end(), std::back_inserter(left.motors),
-               [](const Motor& motor) { return motor.servo.has_value(); });
+  if (!has_native_servos(scene, settings)) left.motors = servos_of(scene);
   return left;
 }
 
@@ -38,12 +45,14 @@ std::string solref_in_words(const mjtNum* solref, const mjtNum* solimp) {
 
 MujocoWorld::MujocoWorld(const Scene& scene, const Settings& settings)
     : ArchivesState("mujoco", fmt::format("{}", mj_version()), scene, settings),
-      scene_(only_forces(scene)),
+      scene_(only_forces(scene, settings)),
       tree_(spanning_tree(scene)),
       made_((mujoco_library::start(), mujoco_model(scene, tree_, settings))),
       data_(mj_makeData(made_.model.get())),
       loads_(scene_),
       motors_(motors_of_effort(scene)),
+      servos_(has_native_servos(scene, settings) ? servos_of(scene) : std::vector<Motor>()),
+      has_servos_(!servos_of(scene).empty()),
       matched_(settings.track == Track::matched),
       is_jointed_(!scene.joints.empty()),
       said_(scene, tree_, settings.method) {
@@ -101,6 +110,8 @@ void MujocoWorld::apply_loads(double dt) {
       Eigen::Map<Vec3>(data_->xfrc_applied + 6 * made_.body[i] + 3) = wrenches[i].torque;
     }
   }
+  const std::vector<double> controls = mujoco_controls(servos_, clock_.time());
+  std::copy(controls.begin(), controls.end(), data_->ctrl);
   for (const Motor& motor : motors_) data_->qfrc_applied[made_.coordinate[motor.joint].velocity] = 0;
   for (const Motor& motor : motors_) {
     const MujocoModel::Coordinate& at = made_.coordinate[motor.joint];
@@ -214,6 +225,9 @@ SettingsInForce MujocoWorld::settings_in_force() const {
       {"springs", "tendons, evaluated at each stage"},
       {"timed forces and motors", "user forces, set before each step"},
   };
+  if (has_servos_)
+    in_force.emplace_back("servos", model.nu > 0 ? "MuJoCo's actuators, by each evaluation's state"
+                                                 : "efforts that Rigor computes from the state at each step's start");
   if (model.ngeom > 0) {
     in_force.emplace_back("contacts", solref_in_words(model.geom_solref, model.geom_solimp));
     in_force.emplace_back("restitution", fmt::format("by the damping ratio {:g} of contacts", model.geom_solref[1]));

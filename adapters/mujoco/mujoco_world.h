@@ -39,8 +39,9 @@ class MujocoWorld : public World, public ReportsReactions, public ReportsContact
   SpanningTree tree_;
   MujocoModel made_;
   mujoco_library::Data data_;
-  ExternalLoads loads_;  // timed forces
-  std::vector<Motor> motors_;
+  ExternalLoads loads_;                 // timed forces
+  std::vector<Motor> motors_, servos_;  // that give an effort; that are MuJoCo's own
+  bool has_servos_;
   bool matched_;
   bool is_jointed_;
   double stiff_dt_ = 0;  // s: the step that the stiffness of loops and limits is set for
