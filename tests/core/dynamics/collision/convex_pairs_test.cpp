@@ -42,6 +42,15 @@ Convex rock(unsigned seed) {
   return {hull_of(points)};
 }
 
+Convex stretched(const Convex& convex, const Vec3& by) {
+  std::vector<Vec3> points = convex.hull->points;
+  for (Vec3& point : points) point = point.cwiseProduct(by);
+  return {hull_of(points)};
+}
+
+// Its faces meet at 70 degrees, so their normals are 110 degrees apart.
+Convex tetrahedron() { return {hull_of({{0.5, 0.5, 0.5}, {0.5, -0.5, -0.5}, {-0.5, 0.5, -0.5}, {-0.5, -0.5, 0.5}})}; }
+
 const ManifoldPoint& nearest_of(const Manifold& points) {
   return *std::min_element(points.begin(), points.end(), [](const auto& p, const auto& q) { return p.gap < q.gap; });
 }
@@ -117,6 +126,9 @@ BOOST_AUTO_TEST_CASE(gaps_are_those_by_support_functions) {
   PairRandom random(5);
   const std::vector<Shape> shapes = {rock(1),
                                      rock(2),
+                                     stretched(rock(3), {0.1, 0.15, 1.2}),  // a needle
+                                     stretched(rock(4), {1, 0.8, 0.05}),    // a plate
+                                     tetrahedron(),
                                      Box{{0.5, 0.7, 0.9}},
                                      Sphere{0.3},
                                      Capsule{0.2, 0.8},
