@@ -1,9 +1,12 @@
 // MuJoCo 3 (npm @mujoco/mujoco, double precision): each request one step of dt. A scene is handed over as MJCF, with
 // joints as those of trees of bodies.
 import { Diverged, Unsupported, add, back, cross, directionIn, oneLaw, pointIn, pose, principal, rotate, serve, times } from "./serve.mjs";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import loadMujoco from "@mujoco/mujoco";
 
-const mujoco = await loadMujoco({ print: console.error, printErr: console.error });
+const wasmBinary = readFileSync(createRequire(import.meta.url).resolve("@mujoco/mujoco/mujoco.wasm"));
+const mujoco = await loadMujoco({ wasmBinary, print: console.error, printErr: console.error });
 const kIntegrators = { euler: "Euler", implicitfast: "implicitfast", rk4: "RK4" };
 
 // Boxes by half their edges, capsules along z by half their cylinder; a plane of size 0 is infinite.

@@ -72,11 +72,12 @@ function answer(state, line) {
   }
 }
 
-// A page has no pipes: there the engine stands in its host's own worker, which asks line by line (cases/laboratory/page).
+// A page has no pipes: there the engine stands in its host's own worker, which asks line by line (cases/laboratory/page). A
+// host that measures time calls the engine itself (bench/wasm).
 export function serve(engine) {
   if (globalThis.rigorHost) {
     const state = { engine, worlds: new Map() };
-    return globalThis.rigorHost((line) => JSON.stringify(answer(state, line)));
+    return globalThis.rigorHost((line) => JSON.stringify(answer(state, line)), engine);
   }
   const state = { engine, worlds: new Map() }, chunk = Buffer.alloc(1 << 16);
   let text = Buffer.alloc(0);
