@@ -35,6 +35,7 @@ Experiment::Experiment(const EngineTable& engines, Scene scene, const std::strin
   const double states = static_cast<double>(steps_) * static_cast<double>(scene_.bodies.size());
   every_ = std::max(1L, std::lround(std::ceil(states / kMostKept)));
   kept_.dt = dt;
+  for (const Joint& joint : scene_.joints) joints_.emplace_back(scene_, joint);
   world_->read(now_);
   record();
 }
@@ -67,11 +68,12 @@ void Experiment::record() {
 }
 
 LiveReading Experiment::read_now() const {
-  LiveReading reading{now_.time, energy(scene_, now_.bodies()), 0, kUnknown, kUnknown};
+  LiveReading reading{now_.time, energy(scene_, now_.bodies()), 0, kUnknown, kUnknown, kUnknown};
   for (std::size_t i = 0; i < now_.bodies().size(); ++i) {
     const Mat3 R = now_.bodies().rotation(i);
     reading.orthonormality = std::max(reading.orthonormality, (R.transpose() * R - Mat3::Identity()).norm());
   }
+  for (const JointGeometry& joint : joints_) reading.joint_gap = std::fmax(reading.joint_gap, joint.gap(now_.bodies()));
   return reading;
 }
 

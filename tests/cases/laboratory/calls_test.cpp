@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(every_case_that_a_browser_can_read_has_a_run_or_a_reason) {
     BOOST_TEST(stepped.at("steps") == 3, id);
     const std::size_t bodies = answered(calls, request("read", id)).at("scene").at("bodies").size();
     answered(calls, {{"call", "step"}, {"count", 1}});
-    BOOST_TEST(calls.numbers().size() == 5 + 7 * bodies, id);
+    BOOST_TEST(calls.numbers().size() == 6 + 7 * bodies, id);
   }
 }
 

@@ -194,6 +194,21 @@ try {
     matches(await text("[data-plot=orthonormality] .readouts b"), /^3\.9/, "|RᵀR − I|"); // the case's gate: 3.935
     await shoot("orientation-1400");
   });
+  await check("the gap of a joint is drawn beside energy and errors, and is the metric's", async () => {
+    await open("#/joints/pendulum-90?runs=core:ode-twin,core:velocity-verlet&dt=1/60");
+    await pick("#speed", "4");
+    await click("#play");
+    await until("Number(document.querySelector('main').dataset.step) >= 60", "60 steps");
+    await click("#play");
+    const gaps = await run(
+      "return [...document.querySelectorAll('[data-plot=gap] .readouts b')].map((one) => one.textContent)",
+    );
+    expect(gaps.length === 2, `two runs, but ${gaps.length} readouts`);
+    matches(gaps[0], /^\d.*[mµ]m$/, "the gap of ODE's scheme");
+    matches(gaps[1], /e-1\d m$|^0 m$/, "the gap of the core's projection");
+    await open("#/springs/fixed-spring?runs=core:rk4");
+    expect(await run("return document.querySelector('[data-plot=gap]').classList.contains('is-empty')"), "a gap without joints");
+  });
   await check("restitution, friction and the contact method act on a collision", async () => {
     await pick("#scene", "contact/collision");
     await until("document.querySelector('#knob-restitution')", "the slider");

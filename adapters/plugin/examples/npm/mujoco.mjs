@@ -6,7 +6,8 @@ import { createRequire } from "node:module";
 import loadMujoco from "@mujoco/mujoco";
 
 const wasmBinary = readFileSync(createRequire(import.meta.url).resolve("@mujoco/mujoco/mujoco.wasm"));
-const mujoco = await loadMujoco({ wasmBinary, print: console.error, printErr: console.error });
+const told = (text) => console.error(text);
+export const mujoco = await loadMujoco({ wasmBinary, print: told, printErr: told });
 const kIntegrators = { euler: "Euler", implicitfast: "implicitfast", rk4: "RK4" };
 
 // Boxes by half their edges, capsules along z by half their cylinder; a plane of size 0 is infinite.

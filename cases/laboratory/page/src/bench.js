@@ -2,7 +2,7 @@
 import { kindOf } from "./run_names.js";
 import { Simulator } from "./simulators.js";
 
-const perReading = 5; // time, energy, orthonormality, position error, orientation error (calls.cpp)
+const perReading = 6; // time, energy, orthonormality, position error, orientation error, joint gap (calls.cpp)
 const atFirst = 3; // simulators of runs
 const longestCall = 60; // ms: more steps in one call, and the picture stutters
 
@@ -22,6 +22,13 @@ export class Bench {
   // The facts of a case file; { ok: false, why } for one that is broken.
   read(file) {
     return this.reader.call({ call: "read", ...file });
+  }
+  // A robot's file as a case file, with the meshes that it names: [{ name, bytes }], the robot's first.
+  // MJCF needs the simulators beside MuJoCo.
+  importRobot(files, { ground, isMjcf }) {
+    if (isMjcf) this.mjcfReader ??= new Simulator("mujoco-js");
+    const reader = isMjcf ? this.mjcfReader : this.reader;
+    return reader.callWith(files, { call: "import", path: files[0].name, ground });
   }
   methods() {
     return this.reader.call({ call: "methods" });
@@ -161,8 +168,8 @@ export class Bench {
   reading(run, step = this.done) {
     const at = perReading * Math.min(step, run.readings.length / perReading - 1);
     if (at < 0) return null;
-    const [time, energy, orthonormality, position, orientation] = run.readings.slice(at, at + perReading);
-    return { time, energy, orthonormality, position, orientation };
+    const [time, energy, orthonormality, position, orientation, gap] = run.readings.slice(at, at + perReading);
+    return { time, energy, orthonormality, position, orientation, gap };
   }
   column(run, index) {
     const values = [];
