@@ -293,9 +293,9 @@ Json LaboratoryCalls::compare(const Request& request) {
   return {{"ok", true}};
 }
 
-Json LaboratoryCalls::judge(const Request&) {
+Json LaboratoryCalls::judge(const Request& request) {
   const Experiment& run = loaded();
-  return {{"ok", true}, {"cell", message_of_cell(0, run.judge(), run.scene())}};
+  return {{"ok", true}, {"cell", message_of_cell(0, run.judge(request.json.value("brief", false)), run.scene())}};
 }
 
 Json LaboratoryCalls::explain(const Request& request) {

@@ -10,7 +10,7 @@
 //   {"call":"readings","from":K}               numbers: all readings from step K on
 //   {"call":"truth", …,"dt":D}                 numbers: the truth's table; with "provisional":true the stand-in
 //   {"call":"compare", header of "truth"}      takes that table from the room for numbers
-//   {"call":"judge"}                           verdict and metrics of the run so far
+//   {"call":"judge","brief":B}                 verdict and metrics of the run so far; B: without what takes seconds
 //   {"call":"explain", …,"dt":D,"runs":[…]}    sentences on the runs, of which each has its answer of "judge"
 //   {"call":"hashes", …,"run":R,"dt":D,"steps":N}   the hash of each state, as `rigor repeat --record` writes it
 //

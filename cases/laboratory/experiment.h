@@ -46,8 +46,9 @@ class Experiment {
   const std::string& run() const { return name_; }             // written out
   const Scene& scene() const { return scene_; }
   SettingsInForce settings() const { return world_->settings_in_force(); }
-  // The run so far, judged like a cell of the report: verdict, metrics and settings in force.
-  Cell judge() const;
+  // The run so far, judged like a cell of the report: verdict, metrics and settings in force. While it goes on, a brief
+  // judgement leaves out what takes seconds: the overlaps of many bodies.
+  Cell judge(bool brief = false) const;
 
  private:
   LiveReading read_now() const;

@@ -13,6 +13,7 @@
 #include "adapters/engines.h"
 #include "cases/analysis/repeats/recorded_states.h"
 #include "core/base/json.h"
+#include "tests/folder.h"
 #include "tests/scenes.h"
 
 BOOST_AUTO_TEST_SUITE(cases_laboratory_calls)
@@ -64,6 +65,34 @@ BOOST_AUTO_TEST_CASE(a_broken_file_is_refused_with_its_line) {
   const std::string why = answer.at("why");
   BOOST_TEST(why.starts_with("springs/fixed-spring.toml:"), why);
   BOOST_TEST(why.find("mass") != std::string::npos, why);
+}
+
+// A robot comes as the text of a case file, which the other calls take.
+BOOST_AUTO_TEST_CASE(a_robot_becomes_a_case_file) {
+  LaboratoryCalls calls;
+  Json import = {{"call", "import"}, {"path", RIGOR_SOURCE_DIR "/tests/cases/import/models/quadruped.urdf"}};
+  const Json alone = answered(calls, import);
+  BOOST_TEST(!alone.at("falls").get<std::string>().empty());
+  import["ground"] = true;
+  const Json robot = answered(calls, import);
+  BOOST_TEST(robot.at("falls").get<std::string>().empty());
+  BOOST_TEST(robot.at("text") != alone.at("text"));
+  const Json facts = answered(calls, {{"call", "read"}, {"path", "quadruped.urdf"}, {"text", robot.at("text")}});
+  BOOST_TEST(facts.at("title").get<std::string>().find("as its URDF file has it") != std::string::npos);
+  BOOST_TEST(!facts.at("lacks").contains("semi-implicit-euler"));
+}
+
+BOOST_AUTO_TEST_CASE(a_broken_robot_is_refused_with_its_line) {
+  const Folder folder;
+  const std::string path = folder.write("robot.urdf",
+                                        "<robot name=\"x\">\n<link name=\"a\">\n<inertial><mass "
+                                        "value=\"heavy\"/></inertial>\n</link>\n</robot>\n");
+  LaboratoryCalls calls;
+  const Json answer = asked(calls, {{"call", "import"}, {"path", path}});
+  BOOST_TEST(!answer.at("ok").get<bool>());
+  const std::string why = answer.at("why");
+  BOOST_TEST(why.starts_with(path + ":3:"), why);
+  BOOST_TEST(why.find("heavy") != std::string::npos, why);
 }
 
 BOOST_AUTO_TEST_CASE(every_case_that_a_browser_can_read_has_a_run_or_a_reason) {

@@ -106,6 +106,26 @@ BOOST_AUTO_TEST_CASE(the_gap_of_a_joint_after_one_straight_step_is_known) {
   BOOST_TEST(std::isnan(none.reading(0).joint_gap));
 }
 
+// Overlaps of many bodies take seconds: a brief judgement has all but these, and a full one has them.
+BOOST_AUTO_TEST_CASE(a_brief_judgement_leaves_out_the_overlaps_of_many) {
+  Scene few, many;
+  for (int i = 0; i < 60; ++i) {
+    Body ball = body("ball " + std::to_string(i), 1, {1, 1, 1}, {3.0 * i, 0, 0});
+    ball.shape = Sphere{0.5}, ball.collides = true;
+    many.bodies.push_back(ball);
+    if (i < 2) few.bodies.push_back(ball);
+  }
+  for (const auto& [scene, has_many] : {std::pair(few, false), {many, true}}) {
+    Experiment run(engines(), scene, "core:semi-implicit-euler,contact=impulse", kDt, 1);
+    run.step();
+    const Cell brief = run.judge(true), full = run.judge();
+    BOOST_TEST(full.metrics.contains("penetration"));
+    BOOST_TEST(brief.metrics.contains("penetration") == !has_many);
+    BOOST_TEST(brief.metrics.size() == full.metrics.size() - (has_many ? 1 : 0));
+    BOOST_TEST((brief.stability.verdict == full.stability.verdict));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_explodes_is_judged_and_ends) {
   const Case made = case_of(fixed_spring(), "reference", 5);
   Experiment run(engines(), made.scene, "core:explicit-euler", 1.0 / 30, made.duration);

@@ -20,7 +20,11 @@ export class OwnFile {
       multiple: true,
       tabindex: -1,
       "aria-label": "A case file, or a robot with its meshes",
-      onchange: (event) => this.take([...event.target.files]),
+      onchange: ({ target }) => {
+        const files = [...target.files];
+        target.value = ""; // the same file may be chosen again
+        this.take(files);
+      },
     });
     window.addEventListener("dragover", (event) => event.preventDefault());
     window.addEventListener("drop", (event) => {
