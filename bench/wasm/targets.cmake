@@ -29,4 +29,14 @@ add_custom_command(OUTPUT ${wasm_build}/engines/installed
   COMMAND ${CMAKE_COMMAND} -E chdir ${wasm_build}/engines ${RIGOR_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
   COMMAND ${CMAKE_COMMAND} -E touch ${wasm_build}/engines/installed
   DEPENDS ${wasm_scripts} COMMENT "Installing engines of the npm registry for bench/run --wasm" VERBATIM)
-add_custom_target(bench-wasm DEPENDS ${wasm_cores} ${wasm_build}/engines/installed)
+# Rapier's build with vector instructions, by the same plug-in.
+set(rapier_simd ${wasm_build}/engines/rapier-simd)
+file(GLOB rapier_files CONFIGURE_DEPENDS ${wasm_room}/rapier-simd/package*.json)
+list(APPEND rapier_files ${npm_engines}/rapier.mjs ${npm_engines}/serve.mjs)
+add_custom_command(OUTPUT ${rapier_simd}/installed
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${rapier_simd}
+  COMMAND ${CMAKE_COMMAND} -E copy ${rapier_files} ${rapier_simd}
+  COMMAND ${CMAKE_COMMAND} -E chdir ${rapier_simd} ${RIGOR_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
+  COMMAND ${CMAKE_COMMAND} -E touch ${rapier_simd}/installed
+  DEPENDS ${rapier_files} COMMENT "Installing Rapier with vector instructions for bench/run --wasm" VERBATIM)
+add_custom_target(bench-wasm DEPENDS ${wasm_cores} ${wasm_build}/engines/installed ${rapier_simd}/installed)

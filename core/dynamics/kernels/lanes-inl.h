@@ -98,8 +98,13 @@ RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) { return Lane{p[i[0]], p[i[1]]}; }
 template <class F>
 RIGOR_INLINE void load_two(F row, Lane& first, Lane& second) {
+#ifdef __wasm_simd128__  // or the compiler loads each number alone
+  const v128_t even = wasm_v128_load(row(0)), odd = wasm_v128_load(row(1));
+  first = (Lane)wasm_i64x2_shuffle(even, odd, 0, 2), second = (Lane)wasm_i64x2_shuffle(even, odd, 1, 3);
+#else
   const Lane even = load(Lane(), row(0)), odd = load(Lane(), row(1));
   first = Lane{even[0], odd[0]}, second = Lane{even[1], odd[1]};
+#endif
 }
 template <class F>
 RIGOR_INLINE void store_two(F row, Lane first, Lane second) {

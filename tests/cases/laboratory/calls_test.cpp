@@ -84,9 +84,12 @@ BOOST_AUTO_TEST_CASE(a_robot_becomes_a_case_file) {
 
 BOOST_AUTO_TEST_CASE(a_broken_robot_is_refused_with_its_line) {
   const Folder folder;
-  const std::string path = folder.write("robot.urdf",
-                                        "<robot name=\"x\">\n<link name=\"a\">\n<inertial><mass "
-                                        "value=\"heavy\"/></inertial>\n</link>\n</robot>\n");
+  const std::string path = folder.write("robot.urdf", R"(<robot name="x">
+<link name="a">
+<inertial><mass value="heavy"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+</link>
+</robot>
+)");
   LaboratoryCalls calls;
   const Json answer = asked(calls, {{"call", "import"}, {"path", path}});
   BOOST_TEST(!answer.at("ok").get<bool>());

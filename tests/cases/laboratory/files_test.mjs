@@ -138,7 +138,7 @@ await finish(async () => {
   await check("MuJoCo reads a dropped MJCF there, and names the line of a mistake", async () => {
     await more("#/springs/fixed-spring?runs=core:semi-implicit-euler~mujoco-js");
     await choose({ "pendulum.xml": mjcf("") });
-    await title("pendulum");
+    await title("as its MJCF file has it");
     await until("!document.querySelector('.now').textContent.includes('–')", "figures of both", 60);
     await choose({ "broken.xml": mjcf('<body name="x"><geom type="cone" size="1"/></body>\n') });
     await error();

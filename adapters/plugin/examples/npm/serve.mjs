@@ -74,7 +74,9 @@ function answer(state, line) {
 
 // A page has no pipes: there the engine stands in its host's own worker, which asks line by line (cases/laboratory/page). A
 // host that measures time calls the engine itself (bench/wasm).
+// RIGOR_ENGINE_NAME gives an engine another name, so that two versions of it may take part in one run.
 export function serve(engine) {
+  engine.info.name = globalThis.process?.env?.RIGOR_ENGINE_NAME ?? engine.info.name;
   if (globalThis.rigorHost) {
     const state = { engine, worlds: new Map() };
     return globalThis.rigorHost((line) => JSON.stringify(answer(state, line)), engine);
