@@ -38,7 +38,7 @@ info.features = info.features.filter((word) => !/convex|heightfield|mesh/.test(w
 let loaded = 0;
 
 serve({
-  info: { ...info, name: lanes === "plain" ? "core-wasm-plain" : "core-wasm", calls: ["run"] },
+  info: { ...info, name: lanes === "plain" ? "core-wasm-plain" : "core-wasm", columns: "f64le", calls: ["run"] },
   load(scene, { method, options }) {
     const id = ++loaded, run = [`core:${method}`, ...Object.entries(options ?? {}).map(([key, value]) => `${key}=${value}`)].join(",");
     const refused = withTexts([`scene = ${toml(scene)}\n`, run], (...texts) => core._rigor_load(id, ...texts));

@@ -62,7 +62,7 @@ function addJoint(world, scene, joint, bodies) {
 
 serve({
   info: {
-    name: "cannon-es", version, precision: "double", calls: ["run"],
+    name: "cannon-es", version, precision: "double", columns: "f64le", calls: ["run"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:hinge", "joints-with-contacts", "restitution", "friction:none",
                "friction:infinite", "contact:plane-sphere", "contact:box-plane", "contact:sphere-sphere", "contact:box-sphere",
                "contact:box-box"],

@@ -106,7 +106,7 @@ function push({ made, mass, frame, moments, round }, wrench, dt) {
 
 serve({
   info: {
-    name: "havok", version, precision: "single", calls: ["run"],
+    name: "havok", version, precision: "single", columns: "f64le", calls: ["run"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:fixed", "joint:hinge", "joint:slider", "joints-with-contacts", "restitution",
                "friction:none", "friction:coulomb", "friction:infinite", "static-friction", "contact:plane-sphere", "contact:box-plane",
                "contact:capsule-plane", "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere",

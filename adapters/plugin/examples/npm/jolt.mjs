@@ -73,7 +73,7 @@ function addJoint(system, scene, joint, bodies) {
 
 serve({
   info: {
-    name: "jolt", version: "1.1.0", precision: "single", calls: ["run"],
+    name: "jolt", version: "1.1.0", precision: "single", columns: "f64le", calls: ["run"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:hinge", "joints-with-contacts", "restitution", "friction:none",
                "friction:coulomb", "friction:infinite", "contact:plane-sphere", "contact:box-plane", "contact:capsule-plane",
                "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere", "contact:box-capsule",

@@ -102,7 +102,7 @@ function contactsOf(model, data, ids, wrench) {
 
 serve({
   info: {
-    name: "mujoco-js", version: mujoco.mj_versionString(), precision: "double", calls: ["run", "contacts"],
+    name: "mujoco-js", version: mujoco.mj_versionString(), precision: "double", columns: "f64le", calls: ["run", "contacts"],
     features: ["wrench", "fixed-body", "friction:none", "friction:coulomb", "joint:ball", "joint:fixed", "joint:hinge",
                "joint:slider", "joints-with-contacts", "contact:plane-sphere", "contact:box-plane",
                "contact:capsule-plane", "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere",

@@ -120,7 +120,7 @@ class ContactReports {
 
 serve({
   info: {
-    name: "physx", version: [version >> 24, (version >> 16) & 255, (version >> 8) & 255].join("."), precision: "single", calls: ["run", "contacts"],
+    name: "physx", version: [version >> 24, (version >> 16) & 255, (version >> 8) & 255].join("."), precision: "single", columns: "f64le", calls: ["run", "contacts"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:fixed", "joint:hinge", "joints-with-contacts", "restitution", "friction:none", "friction:coulomb", "friction:infinite", "static-friction", "contact:plane-sphere",
                "contact:box-plane", "contact:capsule-plane", "contact:sphere-sphere", "contact:box-sphere", "contact:box-box",
                "contact:capsule-sphere", "contact:box-capsule", "contact:capsule-capsule"],
