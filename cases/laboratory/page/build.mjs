@@ -77,10 +77,19 @@ for (const name of [
   "libode-dev",
   "libccd2",
   "libbullet-dev",
+  "libtinyxml2-dev",
   "emscripten",
 ]) {
   const file = `/usr/share/doc/${name}/copyright`;
   if (existsSync(file)) licences.push(`${name}\n${readFileSync(file, "utf8")}`);
+}
+// Of the engines' packages: their own texts, or the name of the licence where a package has none.
+const packages = engineFolder ? JSON.parse(readFileSync(join(engineFolder, "package.json"), "utf8")).dependencies : {};
+for (const name of Object.keys(packages)) {
+  const folder = join(engineFolder, "node_modules", name),
+    { version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8")),
+    file = readdirSync(folder).find((one) => /^licen[cs]e/i.test(one));
+  licences.push(`${name} ${version}\n${file ? readFileSync(join(folder, file), "utf8") : `licence: ${license}`}`);
 }
 writeFileSync(join(dirname(out), "licences.txt"), licences.join("\n\n"));
 
