@@ -2,6 +2,7 @@
 //   node files_test.mjs PAGE.html SHOTS-FOLDER FOLDER-OF-node_modules
 import {
   atStep,
+  browser,
   check,
   choose,
   click,
@@ -135,6 +136,13 @@ await finish(async () => {
       await quiet();
     });
   }
+  await check("its policy, too, runs no script that markup brings in", async () => {
+    await more("#/%3Cimg src=x onerror=alert(1)%3E?runs=%3Cscript%3Ealert(1)%3C/script%3E");
+    expect(!(await run("return document.querySelector('main img, main script')")), "markup came in");
+    const ran = "const s = document.createElement('script'); s.textContent = 'window.wasRun = true'; document.body.append(s); return window.wasRun === true";
+    expect(!(await run(ran)), "a script of the page's own text ran");
+    await browser.complaints(); // the browser tells of the script that it refused
+  });
   await check("MuJoCo reads a dropped MJCF there, and names the line of a mistake", async () => {
     await more("#/springs/fixed-spring?runs=core:semi-implicit-euler~mujoco-js");
     await choose({ "pendulum.xml": mjcf("") });
