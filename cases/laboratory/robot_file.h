@@ -12,7 +12,8 @@ struct RobotCase {
   std::string falls;               // the name of a body that falls without end; empty if there is none
 };
 
-// URDF, SDF or MJCF (import.h). Losses of physics do not throw: the notes name them. Throws InputError, "path:line: what".
+// URDF, SDF or MJCF (import.h). Losses of physics do not throw: the notes name them. A broken file throws InputError,
+// "path:line: what".
 RobotCase robot_case(const std::string& path, bool with_ground);
 
 }  // namespace rigor

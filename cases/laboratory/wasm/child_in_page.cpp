@@ -27,7 +27,7 @@ EM_JS(int, rigor_take_columns, (char* into, int bytes), {
     at += part.length;
   }
   self.rigorRaw = [];
-  return at === into + bytes ? 1 : 0;
+  return at < into + bytes ? 0 : 1;
 });
 
 namespace rigor {

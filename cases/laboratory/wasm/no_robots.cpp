@@ -5,7 +5,8 @@
 namespace rigor {
 
 RobotCase robot_case(const std::string& path, bool) {
-  throw InputError(path + ":1: this build reads no files of robots: TinyXML-2's source was not fetched when it was built");
+  throw InputError(path +
+                   ":1: this build reads no files of robots: TinyXML-2's source was not fetched when it was built");
 }
 
 }  // namespace rigor
