@@ -1,6 +1,7 @@
 // Times the benchmarks of the table in ratio_table.h, prints it and writes Google Benchmark's JSON. --all times every
 // engine and method on every scene. --plugin P adds an engine from outside. --lanes plain, AVX2 or AVX-512 makes the
-// core use that instruction set instead of the widest one. Accepts Google Benchmark's own arguments; --benchmark_filter
+// core use that instruction set instead of the widest one. --scene-files DIR times nothing: it writes the scenes of
+// `bench/run --wasm` and what the plug-ins reach in them. Accepts Google Benchmark's own arguments; --benchmark_filter
 // replaces the table's selection.
 #include <benchmark/benchmark.h>
 
@@ -12,6 +13,7 @@
 #include "adapters/plugin/plugins.h"
 #include "bench/benchmarks.h"
 #include "bench/ratio_table.h"
+#include "bench/wasm/scene_files.h"
 #include "core/base/error.h"
 #include "core/dynamics/kernels/kernels.h"
 
@@ -22,7 +24,7 @@ namespace {
 struct Arguments {
   std::vector<char*> left;  // for Google Benchmark
   std::vector<std::string> plugins = plugins_of_environment();
-  std::string lanes;
+  std::string lanes, scene_files;
   bool all = false, filtered = false;
 };
 
@@ -36,6 +38,8 @@ Arguments read_arguments(int argc, char** argv) {
       found.plugins.push_back(argv[++k]);
     } else if (word == "--lanes" && k + 1 < argc) {
       found.lanes = argv[++k];
+    } else if (word == "--scene-files" && k + 1 < argc) {
+      found.scene_files = argv[++k];
     } else {
       found.filtered |= word.starts_with("--benchmark_filter=");
       found.left.push_back(argv[k]);
@@ -77,6 +81,7 @@ int main(int argc, char** argv) {
   bench::register_limits();
   bench::register_harness();
   try {
+    if (!arguments.scene_files.empty()) return bench::write_scene_files(arguments.scene_files, arguments.plugins), 0;
     bench::register_plugins(arguments.plugins);
   } catch (const InputError& error) {
     return std::fprintf(stderr, "%s\n", error.what()), 2;

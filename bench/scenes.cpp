@@ -282,6 +282,12 @@ Scene many_of(const std::string& id, int count) {
 }
 // Each hangs by a hand.
 Scene ragdolls(const SceneRow&, int count) { return many_of("mechanisms/ragdoll", count); }
+// The same without springs and dampers, for engines that have none of their own.
+Scene bare_ragdolls(const SceneRow& row, int count) {
+  Scene scene = ragdolls(row, count);
+  scene.springs.clear();
+  return scene;
+}
 Scene humanoids(const SceneRow&, int count) { return many_of("robots/humanoid-falls", count); }
 Scene quadrupeds(const SceneRow&, int count) { return many_of("robots/quadruped-stands", count); }
 
@@ -292,6 +298,7 @@ const std::vector<SceneRow>& scenes() {
   static const std::vector<SceneRow> table = {
       {"balls-on-hills", {216}, kPile, Reached::penetration, false, balls_on_hills},
       {"ballistic/projectile", {1}, kCourse, Reached::trajectory, false, of_the_suite},
+      {"bare-ragdolls", {10, 1000}, kFine, Reached::joint_gap, false, bare_ragdolls},
       {"bouncing-spheres", {1, 100, 1000, 10000}, kFine, Reached::energy, false, bouncing_spheres},
       {"chain", {1, 10, 95, 100, 1000}, kFine, Reached::joint_gap, false, joint_chain},
       {"contact/collision", {1}, kCourse, Reached::energy, false, of_the_suite},
@@ -314,6 +321,18 @@ const std::vector<SceneRow>& scenes() {
 
 const SceneRow& scene_row(const std::string& name) {
   return *std::find_if(scenes().begin(), scenes().end(), [&](const SceneRow& row) { return row.name == name; });
+}
+
+// So many that reading the clock does not count, so few that an interval of a slow engine lasts tens of milliseconds.
+int steps_of_interval(const SceneRow& row, int count) {
+  // A pile falls and comes to rest; a pyramid, whose steps are long, stands from the start.
+  if (row.reached == Reached::penetration) return row.name == "pyramid" ? 60 : 240;
+  // A robot falls and lands within 1.5 s.
+  if (row.reached == Reached::gap_and_overlap) return 360;
+  if (row.reached == Reached::joint_gap) return std::clamp(5000 / count, 12, 240);
+  // Bouncing bodies need time to bounce: one second.
+  const int fewest = row.reached == Reached::energy ? static_cast<int>(std::lround(1 / row.dt)) : 5;
+  return std::clamp(50000 / count, fewest, 2000);
 }
 
 const Scene& scene_of(const SceneRow& row, int bodies) {

@@ -30,6 +30,9 @@ struct SceneRow {
 const std::vector<SceneRow>& scenes();  // one row a scene
 const SceneRow& scene_row(const std::string& name);
 
+// The steps of an interval that is timed.
+int steps_of_interval(const SceneRow& row, int count);
+
 // Made once and kept.
 const Scene& scene_of(const SceneRow& row, int bodies);
 

@@ -19,18 +19,6 @@
 namespace rigor::bench {
 namespace {
 
-// So many that reading the clock does not count, so few that an interval of a slow engine lasts tens of milliseconds.
-int steps_of_interval(const SceneRow& row, int count) {
-  // A pile falls and comes to rest; a pyramid, whose steps are long, stands from the start.
-  if (row.reached == Reached::penetration) return row.name == "pyramid" ? 60 : 240;
-  // A robot falls and lands within 1.5 s.
-  if (row.reached == Reached::gap_and_overlap) return 360;
-  if (row.reached == Reached::joint_gap) return std::clamp(5000 / count, 12, 240);
-  // Bouncing bodies need time to bounce: one second.
-  const int fewest = row.reached == Reached::energy ? static_cast<int>(std::lround(1 / row.dt)) : 5;
-  return std::clamp(50000 / count, fewest, 2000);
-}
-
 double seconds_by(clockid_t clock) {
   timespec t;
   clock_gettime(clock, &t);

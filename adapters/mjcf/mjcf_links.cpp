@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "adapters/mjcf/mjcf_import.h"
 #include "core/base/error.h"

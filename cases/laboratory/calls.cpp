@@ -12,6 +12,7 @@
 #include "cases/case/case_reader.h"
 #include "cases/laboratory/experiment.h"
 #include "cases/laboratory/knobs.h"
+#include "cases/laboratory/robot_file.h"
 #include "cases/laboratory/sentences.h"
 #include "cases/laboratory/true_motion.h"
 #include "cases/report/json/scene_json.h"
@@ -113,7 +114,7 @@ Json json_of(const TruthTable& table) {
 
 void append(const LiveReading& reading, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {reading.time, reading.energy, reading.orthonormality, reading.position_error,
-                                 reading.orientation_error});
+                                 reading.orientation_error, reading.joint_gap});
 }
 
 void append_poses(BodyColumns bodies, std::vector<double>& numbers) {
@@ -235,6 +236,11 @@ Json LaboratoryCalls::engine(const Request& request) {
 
 Json LaboratoryCalls::read(const Request& request) { return facts_of(engines_, request.as_written()); }
 
+Json LaboratoryCalls::import(const Request& request) {
+  const RobotCase robot = robot_case(request.text("path"), request.json.value("ground", false));
+  return {{"ok", true}, {"text", robot.text}, {"notes", robot.notes}, {"falls", robot.falls}};
+}
+
 Json LaboratoryCalls::load(const Request& request) {
   const Case changed = request.changed();
   experiment_ = std::make_unique<Experiment>(engines_, changed.scene, request.text("run"), request.dt().seconds,
@@ -287,9 +293,9 @@ Json LaboratoryCalls::compare(const Request& request) {
   return {{"ok", true}};
 }
 
-Json LaboratoryCalls::judge(const Request&) {
+Json LaboratoryCalls::judge(const Request& request) {
   const Experiment& run = loaded();
-  return {{"ok", true}, {"cell", message_of_cell(0, run.judge(), run.scene())}};
+  return {{"ok", true}, {"cell", message_of_cell(0, run.judge(request.json.value("brief", false)), run.scene())}};
 }
 
 Json LaboratoryCalls::explain(const Request& request) {
@@ -307,12 +313,12 @@ Experiment& LaboratoryCalls::loaded() const {
 
 Json LaboratoryCalls::answer_to(const Request& request) {
   static const std::map<std::string, Json (LaboratoryCalls::*)(const Request&)> table = {
-      {"compare", &LaboratoryCalls::compare},   {"engine", &LaboratoryCalls::engine},
-      {"explain", &LaboratoryCalls::explain},   {"hashes", &LaboratoryCalls::hashes},
-      {"judge", &LaboratoryCalls::judge},       {"load", &LaboratoryCalls::load},
-      {"methods", &LaboratoryCalls::methods},   {"read", &LaboratoryCalls::read},
-      {"readings", &LaboratoryCalls::readings}, {"step", &LaboratoryCalls::step},
-      {"truth", &LaboratoryCalls::truth},
+      {"compare", &LaboratoryCalls::compare}, {"engine", &LaboratoryCalls::engine},
+      {"explain", &LaboratoryCalls::explain}, {"hashes", &LaboratoryCalls::hashes},
+      {"import", &LaboratoryCalls::import},   {"judge", &LaboratoryCalls::judge},
+      {"load", &LaboratoryCalls::load},       {"methods", &LaboratoryCalls::methods},
+      {"read", &LaboratoryCalls::read},       {"readings", &LaboratoryCalls::readings},
+      {"step", &LaboratoryCalls::step},       {"truth", &LaboratoryCalls::truth},
   };
   const std::string name = request.text("call");
   const auto found = table.find(name);

@@ -4,12 +4,13 @@
 //   {"call":"engine","command":C,"info":{…}}   adds an engine from outside, a process C; without "info" it is asked
 //   {"call":"methods"}                         the core's methods and the engines from outside, with options
 //   {"call":"read","path":P,"text":T}          what a case file holds: scene, duration, knobs, what methods lack
+//   {"call":"import","path":P,"ground":B}      a robot's file as the text of a case file, and the notes of the import
 //   {"call":"load", …,"run":R,"dt":D}          makes the run of this instance anew; its settings
 //   {"call":"step","count":N}                  numbers: a reading for each step, then the poses after the last
 //   {"call":"readings","from":K}               numbers: all readings from step K on
 //   {"call":"truth", …,"dt":D}                 numbers: the truth's table; with "provisional":true the stand-in
 //   {"call":"compare", header of "truth"}      takes that table from the room for numbers
-//   {"call":"judge"}                           verdict and metrics of the run so far
+//   {"call":"judge","brief":B}                 verdict and metrics of the run so far; B: without what takes seconds
 //   {"call":"explain", …,"dt":D,"runs":[…]}    sentences on the runs, of which each has its answer of "judge"
 //   {"call":"hashes", …,"run":R,"dt":D,"steps":N}   the hash of each state, as `rigor repeat --record` writes it
 //
@@ -46,6 +47,7 @@ class LaboratoryCalls {
   Json engine(const Request& request);
   Json explain(const Request& request);
   Json hashes(const Request& request);
+  Json import(const Request& request);
   Json judge(const Request& request);
   Json load(const Request& request);
   Json methods(const Request& request);

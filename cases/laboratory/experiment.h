@@ -10,6 +10,7 @@
 
 #include "adapters/engines.h"
 #include "cases/laboratory/true_motion.h"
+#include "cases/metrics/measures/joints/joint_geometry.h"
 #include "cases/results/results.h"
 #include "core/engine/engine.h"
 #include "core/engine/trajectory.h"
@@ -23,6 +24,7 @@ struct LiveReading {
   double orthonormality = 0;     // |RᵀR - I| by Frobenius, the largest of all bodies
   double position_error = 0;     // m, the largest of all bodies, to the truth
   double orientation_error = 0;  // rad
+  double joint_gap = 0;          // m, the widest of all joints; not a number where there are none
 };
 
 class Experiment {
@@ -44,8 +46,9 @@ class Experiment {
   const std::string& run() const { return name_; }             // written out
   const Scene& scene() const { return scene_; }
   SettingsInForce settings() const { return world_->settings_in_force(); }
-  // The run so far, judged like a cell of the report: verdict, metrics and settings in force.
-  Cell judge() const;
+  // The run so far, judged like a cell of the report: verdict, metrics and settings in force. While it goes on, a brief
+  // judgement leaves out what takes seconds: the overlaps of many bodies.
+  Cell judge(bool brief = false) const;
 
  private:
   LiveReading read_now() const;
@@ -53,6 +56,7 @@ class Experiment {
   void record();
 
   Scene scene_;
+  std::vector<JointGeometry> joints_;
   std::string name_;
   double dt_, duration_, stagger_;
   long steps_, every_;  // of the whole run; between two samples that are kept

@@ -24,10 +24,10 @@ endforeach()
 # emscripten's own scripts need Debian's acorn, which a Node from elsewhere finds by NODE_PATH.
 #
 # Debian has no libraries for WebAssembly, but their sources. Without that of Qhull the laboratory leaves convex hulls
-# out, and without those of ODE and Bullet these engines.
+# out, without those of ODE and Bullet these engines, and without that of TinyXML-2 the files of robots.
 set(fetched ${play_build}/fetched)
 set(sources_fetched "")
-foreach(package qhull ode bullet)
+foreach(package qhull ode bullet tinyxml2)
   add_custom_command(OUTPUT ${fetched}/${package}-fetched
     COMMAND ${room}/wasm/fetch_source ${package} ${fetched}/${package}
     COMMAND ${CMAKE_COMMAND} -E touch ${fetched}/${package}-fetched
@@ -36,7 +36,7 @@ foreach(package qhull ode bullet)
 endforeach()
 
 file(GLOB_RECURSE simulator_sources CONFIGURE_DEPENDS ../core/*.h ../core/*.cpp ../adapters/common/* ../adapters/plugin/*.h ../adapters/plugin/*.cpp ../adapters/ode/*.h ../adapters/ode/*.cpp
-  ../adapters/bullet/*.h ../adapters/bullet/*.cpp truth/*.h truth/*.cpp metrics/*.h metrics/*.cpp case/*.h case/*.cpp results/*.h results/*.cpp
+  ../adapters/bullet/*.h ../adapters/bullet/*.cpp import/*.h import/*.cpp ../adapters/mjcf/*.h ../adapters/mjcf/*.cpp truth/*.h truth/*.cpp metrics/*.h metrics/*.cpp case/*.h case/*.cpp results/*.h results/*.cpp
   analysis/*.h analysis/*.cpp report/wording/*.h report/wording/*.cpp laboratory/*.h laboratory/*.cpp)
 add_custom_command(OUTPUT ${play_build}/wasm/rigor_play.wasm
   COMMAND ${CMAKE_COMMAND} -S ${room}/wasm -B ${play_build}/wasm -G ${CMAKE_GENERATOR} -DCMAKE_TOOLCHAIN_FILE=${emscripten}
@@ -46,8 +46,8 @@ add_custom_command(OUTPUT ${play_build}/wasm/rigor_play.wasm
   DEPENDS ${sources_fetched} ${simulator_sources} ${room}/wasm/CMakeLists.txt ${room}/wasm/engines.cmake
   COMMENT "Compiling the simulators for WebAssembly" VERBATIM)
 
-# Engines of the npm registry that need no file at run time; engines.html has them beside the core.
-set(RIGOR_PLAY_ENGINES rapier jolt CACHE STRING "Files of adapters/plugin/examples/npm that the laboratory carries")
+# Engines of the npm registry; engines.html has them beside the core.
+set(RIGOR_PLAY_ENGINES ammo cannon-es havok jolt mujoco physx rapier CACHE STRING "Files of adapters/plugin/examples/npm that the laboratory carries")
 set(engines ${play_build}/npm)
 file(MAKE_DIRECTORY ${engines})
 file(GLOB engine_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/adapters/plugin/examples/npm/*.mjs ${PROJECT_SOURCE_DIR}/adapters/plugin/examples/npm/package*.json)

@@ -17,6 +17,19 @@ EM_JS(char*, rigor_ask_engine, (const char* line), {
   return room;
 });
 
+// The columns that stand beside the last answer.
+EM_JS(int, rigor_take_columns, (char* into, int bytes), {
+  let at = into;
+  for (const columns of self.rigorRaw || []) {
+    const part = new Uint8Array(columns.buffer);
+    if (at + part.length > into + bytes) return 0;
+    HEAPU8.set(part, at);
+    at += part.length;
+  }
+  self.rigorRaw = [];
+  return at < into + bytes ? 0 : 1;
+});
+
 namespace rigor {
 
 ChildProcess::ChildProcess(std::string command, double limit, int log, std::string name)
@@ -30,9 +43,9 @@ std::string ChildProcess::ask(const std::string& line, const std::string&, std::
   return answer;
 }
 
-// No engine of a page has columns.
-void ChildProcess::receive(char*, std::size_t, const std::string& request) {
-  throw EngineFailure(FailureKind::invalid, name_ + " has no raw numbers after '" + request + "'");
+void ChildProcess::receive(char* into, std::size_t bytes, const std::string& request) {
+  if (!rigor_take_columns(into, static_cast<int>(bytes)))
+    throw EngineFailure(FailureKind::invalid, name_ + " has other numbers than asked for after '" + request + "'");
 }
 
 double ChildProcess::cpu_seconds() const { return 0; }

@@ -1,4 +1,8 @@
 // Two lanes, for every machine.
+#ifdef __wasm_simd128__
+#include <wasm_simd128.h>
+#endif
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,5 +14,9 @@
 
 #define RIGOR_LANES 2
 #define RIGOR_LANES_OF plain
+#ifdef __wasm_simd128__
+#define RIGOR_LANES_NAME "WebAssembly SIMD"
+#else
 #define RIGOR_LANES_NAME "plain"
+#endif
 #include "core/dynamics/kernels/all-inl.h"

@@ -75,21 +75,36 @@ RIGOR_INLINE void store_two(F row, Lane first, Lane second) {
   every_other(1, __builtin_shufflevector(first, second, 1, 5, 3, 7));
 }
 #else
-// Two doubles, as on every x86-64 and ARM64; the compiler chooses the instructions.
+// Two doubles, as on every x86-64 and ARM64, and in WebAssembly with SIMD; the compiler chooses the instructions.
 using Lane = double __attribute__((vector_size(16)));
 RIGOR_INLINE Lane broadcast(Lane, double x) { return Lane{x, x}; }
 RIGOR_INLINE Lane load(Lane, const double* p) { return Lane{p[0], p[1]}; }
 RIGOR_INLINE void store(double* p, Lane x) { p[0] = x[0], p[1] = x[1]; }
+#ifdef __wasm_simd128__
+RIGOR_INLINE Lane square_root(Lane x) { return (Lane)wasm_f64x2_sqrt((v128_t)x); }
+RIGOR_INLINE bool all_at_most(Lane x, double limit) {
+  return wasm_i64x2_all_true(wasm_f64x2_le((v128_t)x, wasm_f64x2_splat(limit)));
+}
+RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
+  return (Lane)wasm_v128_bitselect((v128_t)yes, (v128_t)no, wasm_f64x2_le((v128_t)x, (v128_t)limit));
+}
+#else
 RIGOR_INLINE Lane square_root(Lane x) { return Lane{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])}; }
 RIGOR_INLINE bool all_at_most(Lane x, double limit) { return x[0] <= limit && x[1] <= limit; }
 RIGOR_INLINE Lane if_at_most(Lane x, Lane limit, Lane yes, Lane no) {
   return Lane{x[0] <= limit[0] ? yes[0] : no[0], x[1] <= limit[1] ? yes[1] : no[1]};
 }
+#endif
 RIGOR_INLINE Lane gather(Lane, const double* p, const std::int32_t* i) { return Lane{p[i[0]], p[i[1]]}; }
 template <class F>
 RIGOR_INLINE void load_two(F row, Lane& first, Lane& second) {
+#ifdef __wasm_simd128__  // or the compiler loads each number alone
+  const v128_t even = wasm_v128_load(row(0)), odd = wasm_v128_load(row(1));
+  first = (Lane)wasm_i64x2_shuffle(even, odd, 0, 2), second = (Lane)wasm_i64x2_shuffle(even, odd, 1, 3);
+#else
   const Lane even = load(Lane(), row(0)), odd = load(Lane(), row(1));
   first = Lane{even[0], odd[0]}, second = Lane{even[1], odd[1]};
+#endif
 }
 template <class F>
 RIGOR_INLINE void store_two(F row, Lane first, Lane second) {

@@ -13,6 +13,7 @@
 #include "adapters/engines.h"
 #include "cases/analysis/repeats/recorded_states.h"
 #include "core/base/json.h"
+#include "tests/folder.h"
 #include "tests/scenes.h"
 
 BOOST_AUTO_TEST_SUITE(cases_laboratory_calls)
@@ -66,6 +67,37 @@ BOOST_AUTO_TEST_CASE(a_broken_file_is_refused_with_its_line) {
   BOOST_TEST(why.find("mass") != std::string::npos, why);
 }
 
+// A robot comes as the text of a case file, which the other calls take.
+BOOST_AUTO_TEST_CASE(a_robot_becomes_a_case_file) {
+  LaboratoryCalls calls;
+  Json import = {{"call", "import"}, {"path", RIGOR_SOURCE_DIR "/tests/cases/import/models/quadruped.urdf"}};
+  const Json alone = answered(calls, import);
+  BOOST_TEST(!alone.at("falls").get<std::string>().empty());
+  import["ground"] = true;
+  const Json robot = answered(calls, import);
+  BOOST_TEST(robot.at("falls").get<std::string>().empty());
+  BOOST_TEST(robot.at("text") != alone.at("text"));
+  const Json facts = answered(calls, {{"call", "read"}, {"path", "quadruped.urdf"}, {"text", robot.at("text")}});
+  BOOST_TEST(facts.at("title").get<std::string>().find("as its URDF file has it") != std::string::npos);
+  BOOST_TEST(!facts.at("lacks").contains("semi-implicit-euler"));
+}
+
+BOOST_AUTO_TEST_CASE(a_broken_robot_is_refused_with_its_line) {
+  const Folder folder;
+  const std::string path = folder.write("robot.urdf", R"(<robot name="x">
+<link name="a">
+<inertial><mass value="heavy"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+</link>
+</robot>
+)");
+  LaboratoryCalls calls;
+  const Json answer = asked(calls, {{"call", "import"}, {"path", path}});
+  BOOST_TEST(!answer.at("ok").get<bool>());
+  const std::string why = answer.at("why");
+  BOOST_TEST(why.starts_with(path + ":3:"), why);
+  BOOST_TEST(why.find("heavy") != std::string::npos, why);
+}
+
 BOOST_AUTO_TEST_CASE(every_case_that_a_browser_can_read_has_a_run_or_a_reason) {
   LaboratoryCalls calls;
   for (const char* id : {"springs/fixed-spring", "springs/body-springs", "contact/collision",
@@ -77,7 +109,7 @@ BOOST_AUTO_TEST_CASE(every_case_that_a_browser_can_read_has_a_run_or_a_reason) {
     BOOST_TEST(stepped.at("steps") == 3, id);
     const std::size_t bodies = answered(calls, request("read", id)).at("scene").at("bodies").size();
     answered(calls, {{"call", "step"}, {"count", 1}});
-    BOOST_TEST(calls.numbers().size() == 5 + 7 * bodies, id);
+    BOOST_TEST(calls.numbers().size() == 6 + 7 * bodies, id);
   }
 }
 

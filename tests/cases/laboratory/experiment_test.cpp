@@ -85,6 +85,47 @@ BOOST_AUTO_TEST_CASE(an_added_matrix_stretches_by_its_law) {
   }
 }
 
+// A rod turns about its end with w, free of forces. ODE's first step moves its centre along the tangent by w r dt and
+// turns it by w dt = a. The end leaves its place by r a²/2, but for terms of a³.
+BOOST_AUTO_TEST_CASE(the_gap_of_a_joint_after_one_straight_step_is_known) {
+  constexpr double kArm = 0.5, kSpin = 2, kTurn = kSpin * kDt;
+  Scene scene;
+  scene.bodies = {body("rod", 1, {1, 1, 1}, {kArm, 0, 0})};
+  scene.bodies[0].velocity = {0, kSpin * kArm, 0}, scene.bodies[0].angular_velocity = {0, 0, kSpin};
+  scene.joints.push_back({.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()}});
+  Experiment straight(engines(), scene, "core:ode-twin", kDt, 1),
+      held(engines(), scene, "core:velocity-verlet", kDt, 1);
+  BOOST_TEST(straight.reading(0).joint_gap < 1e-15);
+  straight.step();
+  BOOST_TEST(std::abs(straight.reading(1).joint_gap / (0.5 * kArm * kTurn * kTurn) - 1) < kTurn);
+  run_to_end(held);
+  double widest = 0;
+  for (std::size_t n = 0; n < held.readings(); ++n) widest = std::max(widest, held.reading(n).joint_gap);
+  BOOST_TEST(widest < 1e-12);
+  const Experiment none(engines(), falling(), "core:ode-twin", kDt, 1);
+  BOOST_TEST(std::isnan(none.reading(0).joint_gap));
+}
+
+// Overlaps of many bodies take seconds: a brief judgement has all but these, and a full one has them.
+BOOST_AUTO_TEST_CASE(a_brief_judgement_leaves_out_the_overlaps_of_many) {
+  Scene few, many;
+  for (int i = 0; i < 60; ++i) {
+    Body ball = body("ball " + std::to_string(i), 1, {1, 1, 1}, {3.0 * i, 0, 0});
+    ball.shape = Sphere{0.5}, ball.collides = true;
+    many.bodies.push_back(ball);
+    if (i < 2) few.bodies.push_back(ball);
+  }
+  for (const auto& [scene, has_many] : {std::pair(few, false), {many, true}}) {
+    Experiment run(engines(), scene, "core:semi-implicit-euler,contact=impulse", kDt, 1);
+    run.step();
+    const Cell brief = run.judge(true), full = run.judge();
+    BOOST_TEST(full.metrics.contains("penetration"));
+    BOOST_TEST(brief.metrics.contains("penetration") == !has_many);
+    BOOST_TEST(brief.metrics.size() == full.metrics.size() - (has_many ? 1 : 0));
+    BOOST_TEST((brief.stability.verdict == full.stability.verdict));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_explodes_is_judged_and_ends) {
   const Case made = case_of(fixed_spring(), "reference", 5);
   Experiment run(engines(), made.scene, "core:explicit-euler", 1.0 / 30, made.duration);

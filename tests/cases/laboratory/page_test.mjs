@@ -1,76 +1,31 @@
 // Tests the laboratory in a headless Chromium: every control, as a student would use it.
 //   node page_test.mjs PAGE.html SHOTS-FOLDER FOLDER-OF-node_modules
 // Prints the result of each check; the exit code is 0 if all passed. Screenshots stay in the folder.
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
-import { Browser } from "../report/html/browser.mjs";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import {
+  atStep,
+  browser,
+  check,
+  click,
+  expect,
+  finish,
+  hash,
+  inAddress,
+  matches,
+  modules,
+  open,
+  pick,
+  quiet,
+  run,
+  shoot,
+  slide,
+  step,
+  text,
+  until,
+} from "./page_driver.mjs";
 
-const [page, shots, modules] = process.argv.slice(2);
-const url = pathToFileURL(resolve(page)).href;
-const files = mkdtempSync(join(tmpdir(), "rigor-laboratory-"));
-mkdirSync(shots, { recursive: true });
-
-let passed = 0,
-  failed = 0;
-async function check(name, body) {
-  try {
-    await body();
-    ++passed;
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAIL  ${name}: ${error.message}`);
-  }
-}
-function expect(condition, message) {
-  if (!condition) throw new Error(message);
-}
-const matches = (text, pattern, what) => expect(pattern.test(text), `${what}: found "${text}", expected ${pattern}`);
-
-const browser = await Browser.open({ width: 1400, height: 1000 });
-const run = (script, ...args) => browser.run(script, ...args);
-const text = (selector) => run("return document.querySelector(arguments[0])?.textContent ?? ''", selector);
-const click = (selector) => run("document.querySelector(arguments[0]).click()", selector);
-const hash = () => run("return decodeURIComponent(location.hash)");
-const step = () => run("return Number(document.querySelector('main').dataset.step)");
-const until = (script, what, seconds) => browser.until(script, what, seconds);
-const atStep = (n) => until(`document.querySelector('main').dataset.step === '${n}'`, `step ${n}`);
-const inAddress = (part) =>
-  until(`decodeURIComponent(location.hash).includes(${JSON.stringify(part)})`, `${part} in the address`);
-const pick = (selector, value) =>
-  run(
-    "const s = document.querySelector(arguments[0]); s.value = arguments[1]; s.dispatchEvent(new Event('change', { bubbles: true }))",
-    selector,
-    value,
-  );
-const slide = (selector, value) =>
-  run(
-    "const s = document.querySelector(arguments[0]); s.value = arguments[1]; s.dispatchEvent(new Event('input', { bubbles: true }))",
-    selector,
-    String(value),
-  );
-const shoot = async (name, whole = false) =>
-  writeFileSync(join(shots, `${name}.png`), await browser.screenshot({ whole }));
-async function open(fragment = "") {
-  await browser.goTo("about:blank");
-  await browser.goTo(url + fragment);
-  await until("document.documentElement.dataset.ready", "the laboratory to start");
-}
-async function quiet() {
-  const complaints = (await browser.complaints()).filter((one) => !one.includes("GPU stall due to ReadPixels"));
-  expect(complaints.length === 0, complaints.join("\n"));
-}
-// Puts a file into the page's own input, as a person's choice does.
-async function choose(name, content) {
-  const path = join(files, name);
-  writeFileSync(path, content);
-  const found = await browser.post("/element", { using: "css selector", value: "#file" });
-  await browser.post(`/element/${Object.values(found)[0]}/value`, { text: path });
-}
-
-try {
+await finish(async () => {
   await check("it is usable within two seconds, without a word in the console", async () => {
     await open();
     const took = Number(await run("return document.documentElement.dataset.ready"));
@@ -194,6 +149,22 @@ try {
     matches(await text("[data-plot=orthonormality] .readouts b"), /^3\.9/, "|RᵀR − I|"); // the case's gate: 3.935
     await shoot("orientation-1400");
   });
+  await check("the gap of a joint is drawn beside energy and errors, and is the metric's", async () => {
+    await open("#/joints/pendulum-90?runs=core:ode-twin~core:velocity-verlet&dt=1/60");
+    await pick("#speed", "4");
+    await click("#play");
+    await until("Number(document.querySelector('main').dataset.step) >= 60", "60 steps");
+    await click("#play");
+    const gaps = await run(
+      "return [...document.querySelectorAll('[data-plot=gap] .readouts b')].map((one) => one.textContent)",
+    );
+    expect(gaps.length === 2, `two runs, but ${gaps.length} readouts`);
+    matches(gaps[0], /^\d.*[mµ]m$/, "the gap of ODE's scheme");
+    matches(gaps[1], /^≈ 0$/, "the gap of the core's projection");
+    await shoot("gap-1400");
+    await open("#/springs/fixed-spring?runs=core:rk4");
+    expect(await run("return document.querySelector('[data-plot=gap]').classList.contains('is-empty')"), "a gap without joints");
+  });
   await check("restitution, friction and the contact method act on a collision", async () => {
     await pick("#scene", "contact/collision");
     await until("document.querySelector('#knob-restitution')", "the slider");
@@ -247,24 +218,6 @@ try {
     expect(!(await run("return document.querySelector('main img, main script')")), "markup came in");
     await quiet();
   });
-  await check("a case file of one's own is shown", async () => {
-    await open();
-    const scene =
-      '# A stone.\ntitle = "<b>Stone</b>"\n[scene]\ngravity = [0, -9.8, 0]\n[[scene.body]]\nname = "stone"\nmass = 2\ninertia = [1, 1, 1]\n[run]\nduration = 1\ndt = ["1/30"]\n[truth]\nkind = "projectile"\n';
-    await choose("stone.toml", scene);
-    await until("document.querySelector('h1').textContent === '<b>Stone</b>'", "its title as text");
-    await until("document.querySelector('#truth-note').textContent.startsWith('Truth: projectile')", "its truth");
-  });
-  await check("a broken one is refused with its line marked", async () => {
-    await choose(
-      "broken.toml",
-      'title = "x"\n[scene]\n[[scene.body]]\nname = "stone"\nmas = 2\n[run]\nduration = 1\ndt = ["1/30"]\n',
-    );
-    await until("document.querySelector('.own-file mark')", "the mark");
-    matches(await text("#file-error"), /broken\.toml:5:/, "the message");
-    matches(await text(".own-file mark"), /mas = 2/, "the marked line");
-    await shoot("broken-file-1400");
-  });
   for (const id of await run(
     "return [...document.querySelectorAll('[data-lesson]')].map((one) => one.dataset.lesson)",
   )) {
@@ -316,30 +269,6 @@ try {
     await shoot("ode-bullet-1400");
     await quiet();
   });
-  await check("the other page has Rapier and Jolt beside the core, with the same state", async () => {
-    await open("#/contact/collision?runs=core:velocity-verlet,contact=event&dt=1/60&restitution=0.25");
-    await click("#other-page");
-    await until(
-      "location.pathname.endsWith('engines.html') && document.documentElement.dataset.ready",
-      "the other page",
-      30,
-    );
-    await inAddress("restitution=0.25");
-    await click("#add-run"), await until("document.querySelectorAll('.run-row').length === 2", "a second run");
-    await pick(".run-row:nth-of-type(2) select", "rapier");
-    await inAddress("~rapier");
-    await click("#add-run"), await until("document.querySelectorAll('.run-row').length === 3", "a third run");
-    await pick(".run-row:nth-of-type(3) select", "jolt");
-    await inAddress("~jolt");
-    await until("!document.querySelector('.now').textContent.includes('–')", "figures of all", 30);
-    await pick("#speed", "4");
-    await click("#play");
-    await atStep(300);
-    for (const run of ["rapier", "jolt"])
-      matches(await text(`.now [data-run='${run}'] td:nth-of-type(2)`), /m$/, `the error of ${run}`);
-    await shoot("engines-1400");
-    await quiet();
-  });
   for (const [width, dark] of [
     [1400, false],
     [400, true],
@@ -361,9 +290,4 @@ try {
       );
     });
   }
-} finally {
-  await browser.close();
-  rmSync(files, { recursive: true, force: true });
-}
-console.log(`${passed} passed, ${failed} failed`);
-process.exit(failed > 0 ? 1 : 0);
+});

@@ -69,7 +69,7 @@ function checkRotation(scene, bodies, dt) {
 
 serve({
   info: {
-    name: "ammo", version, precision: "single", calls: ["run"],
+    name: "ammo", version, precision: "single", columns: "f64le", calls: ["run"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:hinge", "joints-with-contacts", "restitution", "friction:none",
                "friction:coulomb", "friction:infinite", "contact:plane-sphere", "contact:box-plane", "contact:capsule-plane",
                "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere", "contact:box-capsule",

@@ -72,7 +72,7 @@ function contactsOf(world, bodies) {
 
 serve({
   info: {
-    name: "cannon-es", version, precision: "double", calls: ["run", "contacts"],
+    name: "cannon-es", version, precision: "double", columns: "f64le", calls: ["run", "contacts"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:hinge", "joints-with-contacts", "restitution", "friction:none",
                "friction:infinite", "contact:plane-sphere", "contact:box-plane", "contact:sphere-sphere", "contact:box-sphere",
                "contact:box-box"],

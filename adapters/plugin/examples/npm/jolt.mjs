@@ -1,5 +1,6 @@
 // Jolt (npm jolt-physics, single precision): each request one step of dt. `matched` switches off damping and sleeping
-// and lets bodies turn as fast as they do; a contact listener sets the laws of contacts, for Jolt would combine them.
+// and lets bodies turn as fast as they do. Jolt combines the laws of two bodies (the root of the product of frictions, the
+// larger restitution), so each body has the values of the scene's one law.
 import { oneLaw, pose, serve } from "./serve.mjs";
 import initJolt from "jolt-physics";
 
@@ -33,10 +34,11 @@ function shapeOf(shape) {
   }
 }
 
-function bodyOf(bodies, body, matched) {
+function bodyOf(bodies, body, law, matched) {
   const { x, q } = pose({ body: [body] }, body.name), [w, i, j, k] = q;
   const settings = new Jolt.BodyCreationSettings(shapeOf(body.shape), rvec(x), new Jolt.Quat(i, j, k, w),
     body.fixed ? Jolt.EMotionType_Static : Jolt.EMotionType_Dynamic, body.fixed ? kStanding : kMoving);
+  settings.mFriction = law.friction, settings.mRestitution = law.restitution;
   if (!body.collides) settings.mIsSensor = true; // is felt by nothing
   if (!body.fixed) {
     const [xx, yy, zz, xy, xz, yz] = body.inertia, inertia = settings.mMassPropertiesOverride.mInertia;
@@ -55,18 +57,6 @@ function bodyOf(bodies, body, matched) {
   return made;
 }
 
-function lawOfContacts(law) {
-  const listener = new Jolt.ContactListenerJS();
-  const set = (a, b, manifold, settings) => {
-    const contact = Jolt.wrapPointer(settings, Jolt.ContactSettings);
-    contact.mCombinedFriction = law.friction, contact.mCombinedRestitution = law.restitution;
-  };
-  listener.OnContactValidate = () => Jolt.ValidateResult_AcceptAllContactsForThisBodyPair;
-  listener.OnContactAdded = listener.OnContactPersisted = set;
-  listener.OnContactRemoved = () => {};
-  return listener;
-}
-
 function addJoint(system, scene, joint, bodies) {
   const world = Jolt.JoltInterface.prototype.sGetFixedToWorldBody();
   const of = (name) => (name === "world" ? world : bodies[scene.body.findIndex((body) => body.name === name)]);
@@ -83,7 +73,7 @@ function addJoint(system, scene, joint, bodies) {
 
 serve({
   info: {
-    name: "jolt", version: "1.1.0", precision: "single", calls: ["run"],
+    name: "jolt", version: "1.1.0", precision: "single", columns: "f64le", calls: ["run"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:hinge", "joints-with-contacts", "restitution", "friction:none",
                "friction:coulomb", "friction:infinite", "contact:plane-sphere", "contact:box-plane", "contact:capsule-plane",
                "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere", "contact:box-capsule",
@@ -92,12 +82,13 @@ serve({
   },
   load(scene, { track }) {
     const matched = track === "matched", jolt = joltOf(), system = jolt.GetPhysicsSystem(), made = system.GetBodyInterface();
-    system.SetGravity(vec(scene.gravity)), system.SetContactListener(lawOfContacts(oneLaw(scene)));
+    system.SetGravity(vec(scene.gravity));
+    const law = oneLaw(scene);
     if (matched) {
       const settings = system.GetPhysicsSettings();
       settings.mMinVelocityForRestitution = 0, system.SetPhysicsSettings(settings);
     }
-    const bodies = scene.body.map((body) => bodyOf(made, body, matched));
+    const bodies = scene.body.map((body) => bodyOf(made, body, law, matched));
     for (const joint of scene.joint ?? []) addJoint(system, scene, joint, bodies);
     return {
       settings: { gyroscopic: "on", sleeping: matched ? "off" : "on", damping: matched ? "none" : "as shipped" },

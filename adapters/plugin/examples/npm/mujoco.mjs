@@ -1,9 +1,13 @@
 // MuJoCo 3 (npm @mujoco/mujoco, double precision): each request one step of dt. A scene is handed over as MJCF, with
 // joints as those of trees of bodies.
 import { Diverged, Unsupported, add, back, cross, directionIn, oneLaw, pointIn, pose, principal, rotate, serve, times } from "./serve.mjs";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import loadMujoco from "@mujoco/mujoco";
 
-const mujoco = await loadMujoco({ print: console.error, printErr: console.error });
+const wasmBinary = readFileSync(createRequire(import.meta.url).resolve("@mujoco/mujoco/mujoco.wasm"));
+const told = (text) => console.error(text);
+export const mujoco = await loadMujoco({ wasmBinary, print: told, printErr: told });
 const kIntegrators = { euler: "Euler", implicitfast: "implicitfast", rk4: "RK4" };
 
 // Boxes by half their edges, capsules along z by half their cylinder; a plane of size 0 is infinite.
@@ -98,7 +102,7 @@ function contactsOf(model, data, ids, wrench) {
 
 serve({
   info: {
-    name: "mujoco-js", version: mujoco.mj_versionString(), precision: "double", calls: ["run", "contacts"],
+    name: "mujoco-js", version: mujoco.mj_versionString(), precision: "double", columns: "f64le", calls: ["run", "contacts"],
     features: ["wrench", "fixed-body", "friction:none", "friction:coulomb", "joint:ball", "joint:fixed", "joint:hinge",
                "joint:slider", "joints-with-contacts", "contact:plane-sphere", "contact:box-plane",
                "contact:capsule-plane", "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere",

@@ -54,7 +54,7 @@ function addJoint(world, scene, joint, bodies) {
 
 serve({
   info: {
-    name: "rapier", version: RAPIER.version(), precision: "single", calls: ["run", "save", "restore"],
+    name: "rapier", version: RAPIER.version(), precision: "single", columns: "f64le", calls: ["run", "save", "restore"],
     features: ["wrench", "fixed-body", "joint:ball", "joint:fixed", "joint:hinge", "joints-with-contacts", "restitution", "friction:none",
                "friction:coulomb", "friction:infinite", "contact:plane-sphere", "contact:box-plane", "contact:capsule-plane",
                "contact:sphere-sphere", "contact:box-sphere", "contact:box-box", "contact:capsule-sphere", "contact:box-capsule",

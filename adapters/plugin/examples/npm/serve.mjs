@@ -11,6 +11,13 @@ for (const name of ["log", "info", "debug"]) console[name] = console.error;
 export class Unsupported extends Error {}
 export class Diverged extends Error {}
 
+// The thirteen columns of all bodies, one behind the other: all px, then all py, and so on.
+function columnsOf(rows) {
+  const columns = new Float64Array(13 * rows.length);
+  rows.forEach((row, i) => row.forEach((number, c) => (columns[c * rows.length + i] = number)));
+  return columns;
+}
+
 const diverged = (time) => ({ ok: false, status: "diverged", why: "a number is not finite", time });
 
 const calls = {
@@ -23,9 +30,10 @@ const calls = {
     worlds.get(world).time += dt;
     return warning ? { ok: true, warning } : { ok: true };
   },
-  read({ worlds }, { world }) {
-    const { time, of } = worlds.get(world), bodies = of.rows();
-    return bodies.flat().every(Number.isFinite) ? { ok: true, time, bodies } : diverged(time);
+  read({ engine, worlds }, { world }) {
+    const { time, of } = worlds.get(world), bodies = of.rows(), columns = columnsOf(bodies);
+    if (!columns.every(Number.isFinite)) return diverged(time);
+    return engine.info.columns ? { ok: true, time, raw: [columns] } : { ok: true, time, bodies };
   },
   contacts({ worlds }, { world }) {
     return { ok: true, contacts: worlds.get(world).of.contacts() };
@@ -43,17 +51,17 @@ const calls = {
     return { ok: true };
   },
   run(state, { world, dt, count, every }) {
-    const samples = [];
+    const samples = [], all = [];
     let told;
     for (let n = 1; n <= count; ++n) {
       const { warning } = calls.step(state, { world, dt });
       told ??= warning;
       if (n % every !== 0 && n !== count) continue;
-      const { ok, time, bodies } = calls.read(state, { world });
+      const { ok, time, bodies, raw = [] } = calls.read(state, { world });
       if (!ok) return diverged(time);
-      samples.push({ time, bodies });
+      samples.push({ time, bodies }), all.push(...raw);
     }
-    return told ? { ok: true, samples, warning: told } : { ok: true, samples };
+    return { ok: true, samples, raw: all, warning: told };
   },
   unload({ worlds }, { world }) {
     worlds.get(world).of.free?.(), worlds.delete(world);
@@ -72,19 +80,27 @@ function answer(state, line) {
   }
 }
 
-// A page has no pipes: there the engine stands in its host's own worker, which asks line by line (cases/laboratory/page).
+// A page has no pipes: there the engine stands in its host's own worker, which asks line by line (cases/laboratory/page). A
+// host that measures time calls the engine itself (bench/wasm).
+// RIGOR_ENGINE_NAME gives an engine another name, so that two versions of it may take part in one run.
 export function serve(engine) {
+  engine.info.name = globalThis.process?.env?.RIGOR_ENGINE_NAME ?? engine.info.name;
   if (globalThis.rigorHost) {
     const state = { engine, worlds: new Map() };
-    return globalThis.rigorHost((line) => JSON.stringify(answer(state, line)));
+    const told = (line) => {
+      const { raw = [], ...json } = answer(state, line);
+      return (globalThis.rigorRaw = raw), JSON.stringify(json);
+    };
+    return globalThis.rigorHost(told, engine);
   }
   const state = { engine, worlds: new Map() }, chunk = Buffer.alloc(1 << 16);
   let text = Buffer.alloc(0);
   for (let size; (size = readSync(0, chunk)) > 0; ) {
     text = Buffer.concat([text, chunk.subarray(0, size)]);
     for (let end; (end = text.indexOf(10)) >= 0; text = text.subarray(end + 1)) {
-      const line = Buffer.from(JSON.stringify(answer(state, text.subarray(0, end))) + "\n");
-      for (let at = 0; at < line.length; ) at += writeSync(1, line, at);
+      const { raw = [], ...json } = answer(state, text.subarray(0, end));
+      for (const part of [Buffer.from(JSON.stringify(json) + "\n"), ...raw.map(({ buffer }) => Buffer.from(buffer))])
+        for (let at = 0; at < part.length; ) at += writeSync(1, part, at);
     }
   }
   process.exit(0); // a runtime's own threads and timers do not keep it

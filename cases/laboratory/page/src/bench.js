@@ -2,9 +2,11 @@
 import { kindOf } from "./run_names.js";
 import { Simulator } from "./simulators.js";
 
-const perReading = 5; // time, energy, orthonormality, position error, orientation error (calls.cpp)
+const perReading = 6; // time, energy, orthonormality, position error, orientation error, joint gap (calls.cpp)
 const atFirst = 3; // simulators of runs
 const longestCall = 60; // ms: more steps in one call, and the picture stutters
+const tellEvery = 1000; // ms
+const mostTelling = 0.1; // the share of time in which runs are judged and not stepped, while they play
 
 export class Bench {
   constructor(onChange) {
@@ -22,6 +24,13 @@ export class Bench {
   // The facts of a case file; { ok: false, why } for one that is broken.
   read(file) {
     return this.reader.call({ call: "read", ...file });
+  }
+  // A robot's file as a case file, with the meshes that it names: [{ name, bytes }], the robot's first.
+  // MJCF needs the simulators beside MuJoCo.
+  importRobot(files, { ground, isMjcf }) {
+    if (isMjcf) this.mjcfReader ??= new Simulator("mujoco-js");
+    const reader = isMjcf ? this.mjcfReader : this.reader;
+    return reader.callWith(files, { call: "import", path: files[0].name, ground });
   }
   methods() {
     return this.reader.call({ call: "methods" });
@@ -132,8 +141,13 @@ export class Bench {
     return poses;
   }
 
-  // All runs to step `to`, in calls that are short enough for the picture.
   async advance(to) {
+    await this.stepAll(to);
+    this.onChange("stepped");
+  }
+
+  // All runs to step `to`, in calls that are short enough for the picture.
+  async stepAll(to) {
     const mine = this.generation;
     while (this.done < to && mine === this.generation && !this.hasEnded) {
       const count = Math.min(to - this.done, Math.max(1, Math.round(this.pace ?? 20)));
@@ -143,7 +157,6 @@ export class Bench {
       this.pace = (count * longestCall) / Math.max(1, performance.now() - began);
       this.done += count;
     }
-    this.onChange("stepped");
   }
 
   async stepRun(run, count) {
@@ -161,8 +174,8 @@ export class Bench {
   reading(run, step = this.done) {
     const at = perReading * Math.min(step, run.readings.length / perReading - 1);
     if (at < 0) return null;
-    const [time, energy, orthonormality, position, orientation] = run.readings.slice(at, at + perReading);
-    return { time, energy, orthonormality, position, orientation };
+    const [time, energy, orthonormality, position, orientation, gap] = run.readings.slice(at, at + perReading);
+    return { time, energy, orthonormality, position, orientation, gap };
   }
   column(run, index) {
     const values = [];
@@ -189,11 +202,14 @@ export class Bench {
     this.due = Math.max(this.due ?? 0, this.time);
     this.due = Math.min(this.due + passed * this.speed, this.time + 0.1 * this.speed + this.dt);
     const to = Math.min(this.mostSteps, Math.floor(this.due / this.dt + 1e-9));
-    if (to > this.done) await this.advance(to);
+    const isDue = to > this.done;
+    if (isDue) await this.stepAll(to);
     if (this.hasEnded) this.playing = false;
-    if (!this.playing || now - (this.told ?? 0) > 1000) (this.told = now), this.tell();
+    const pause = Math.max(tellEvery, (this.tellingTook ?? 0) / mostTelling);
+    if (!this.playing || now - (this.told ?? 0) > pause) (this.told = now), this.tell();
+    // The next frame is asked for before the picture is: then the runs go on while it is drawn.
     if (this.playing) requestAnimationFrame((later) => this.frame(later));
-    else this.onChange("stepped");
+    if (isDue || !this.playing) this.onChange("stepped");
   }
 
   // Judges all runs and asks for the sentences on them. One question at a time; the last one is not lost.
@@ -201,12 +217,16 @@ export class Bench {
     if (this.isTelling) return void (this.mustTellAgain = true);
     this.isTelling = true;
     const mine = this.generation,
+      began = performance.now(),
+      { runs } = this,
+      judged = (run) => (run.why ? { ok: false } : run.simulator.call({ call: "judge", brief: this.playing })),
       rows = [];
-    for (const run of this.runs) {
-      const answer = run.why ? { ok: false } : await run.simulator.call({ call: "judge" });
-      if (answer.ok) rows.push({ run: run.name, cell: answer.cell });
-      if (answer.ok) run.cell = JSON.parse(answer.cell).result;
+    for (const [k, answer] of (await Promise.all(runs.map(judged))).entries()) {
+      if (!answer.ok) continue;
+      rows.push({ run: runs[k].name, cell: answer.cell });
+      runs[k].cell = JSON.parse(answer.cell).result;
     }
+    this.tellingTook = performance.now() - began;
     const words =
       mine === this.generation ? await this.reader.call({ call: "explain", ...this.what, runs: rows }) : null;
     this.isTelling = false;

@@ -1,4 +1,4 @@
-// Energy, errors and orthonormality over time, while the runs go on.
+// Energy, errors, orthonormality and gaps of joints over time, while the runs go on.
 import uPlot from "uplot";
 import { el, replace } from "../../../report/html/page/src/dom.js";
 import { digits, quantity } from "../../../report/html/page/src/format.js";
@@ -22,6 +22,7 @@ export const plots = [
     column: 2,
     isLog: true,
   },
+  { name: "gap", title: "Widest gap of a joint", unit: "m", column: 5, isLog: true },
 ];
 
 export class LivePlots {

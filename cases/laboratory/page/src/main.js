@@ -7,9 +7,16 @@ import { carriedCases, compile } from "./simulators.js";
 
 const page = document.getElementById("page");
 
+// The shortest modules with a vector of doubles, and with an exception.
+const withVectors = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
+const withException = [0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 8, 1, 6, 0, 6, 64, 25, 11, 11];
+const takes = (bytes) => typeof WebAssembly !== "undefined" && WebAssembly.validate(new Uint8Array(bytes));
+
 const lacking = () =>
   [
     [typeof WebAssembly === "undefined", "WebAssembly"],
+    [!takes(withVectors), "WebAssembly's vector instructions (Chrome 91, Firefox 89, Safari 16.4)"],
+    [!takes(withException), "WebAssembly's exceptions (Chrome 95, Firefox 100, Safari 15.2)"],
     [typeof DecompressionStream === "undefined", "DecompressionStream (Chrome 80, Firefox 113, Safari 16.4)"],
   ]
     .filter(([lacks]) => lacks)
@@ -21,7 +28,7 @@ function otherPage() {
   if (!link) return null;
   return el(
     "a.quiet",
-    { id: "other-page", href: link.file, onclick: (event) => (event.target.href = link.file + location.hash) },
+    { id: "other-page", href: link.file, title: link.title, onclick: (event) => (event.target.href = link.file + location.hash) },
     link.text,
   );
 }

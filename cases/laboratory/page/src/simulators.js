@@ -73,9 +73,16 @@ export class Simulator {
 
   // The answer to a call of calls.h; `numbers` are copied, not taken.
   async call(request, numbers = null) {
+    return this.ask(numbers ? { request, numbers } : { request });
+  }
+  // A call that reads files: [{ name, bytes }].
+  async callWith(files, request) {
+    return this.ask({ request, files });
+  }
+  async ask(message) {
     await this.started;
     if (this.closed) return { ok: false, is_closed: true, why: "closed" };
-    return this.send(numbers ? { request, numbers } : { request });
+    return this.send(message);
   }
 
   get isBusy() {

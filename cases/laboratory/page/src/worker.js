@@ -4,10 +4,11 @@ import { instanceOf } from "./instance.js";
 
 let instance = null;
 
-self.onmessage = async ({ data: { id, module, request, numbers } }) => {
+self.onmessage = async ({ data: { id, module, request, numbers, files } }) => {
   try {
     await self.rigorReady; // of an engine from outside; nothing in the core's worker
     if (module) instance = await instanceOf(self.makeRigor ?? makeRigor, module);
+    if (files) instance.put(files);
     const answer = request ? instance.call(request, numbers) : { ok: true };
     const given = answer.numbers ?? new Float64Array();
     delete answer.numbers;

@@ -50,12 +50,15 @@ export class CanvasView {
   }
   // x, y in pixels and pixels a metre there; null behind the eye.
   project(p) {
-    const d = p.map((v, k) => v - this.eye[k]),
-      along = (axis) => d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
-    const depth = -along(this.axes.back);
+    const { eye, axes, middle } = this,
+      x = p[0] - eye[0],
+      y = p[1] - eye[1],
+      z = p[2] - eye[2],
+      along = (axis) => x * axis[0] + y * axis[1] + z * axis[2];
+    const depth = -along(axes.back);
     if (depth < 1e-9) return null;
     const pixels = this.scale / depth;
-    return [this.middle[0] + pixels * along(this.axes.right), this.middle[1] - pixels * along(this.axes.up), pixels];
+    return [middle[0] + pixels * along(axes.right), middle[1] - pixels * along(axes.up), pixels];
   }
   line(points) {
     let drawing = false;
@@ -144,8 +147,14 @@ export class CanvasView {
       const half = shape.size.map((s) => s / 2),
         corners = [];
       for (const x of [-1, 1])
-        for (const y of [-1, 1]) for (const z of [-1, 1]) corners.push(world([x * half[0], y * half[1], z * half[2]]));
-      for (const [a, b] of edges) this.line([corners[a], corners[b]]);
+        for (const y of [-1, 1])
+          for (const z of [-1, 1]) corners.push(this.project(world([x * half[0], y * half[1], z * half[2]])));
+      this.pen.beginPath();
+      for (const [a, b] of edges) {
+        if (!corners[a] || !corners[b]) continue;
+        this.pen.moveTo(corners[a][0], corners[a][1]), this.pen.lineTo(corners[b][0], corners[b][1]);
+      }
+      this.pen.stroke();
     } else if (shape.type === "capsule") {
       for (const end of [-0.5, 0.5]) {
         const at = this.project(world([0, 0, end * shape.length]));
