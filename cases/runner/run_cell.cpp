@@ -70,14 +70,15 @@ bool is_repeated(const Simulation& run, const Case& definition, const GridOption
 }
 
 // A case with gates says what it is about. One without, such as a user's own, is asked for its contact forces, too,
-// unless it has so many bodies that the records could fill the memory.
-bool records_contacts(const Case& definition, const GridOptions& options) {
+// unless it has so many bodies and steps that the records could fill the memory.
+bool records_contacts(const Case& definition, double dt, const GridOptions& options) {
   if (!anything_can_touch(definition.scene)) return false;
-  constexpr std::size_t kFewBodies = 64;  // in 2400 steps, 8 contacts of 100 bytes for each of them: 123 MB
+  constexpr double kMostRecords = 250'000;  // bodies times steps; with 8 contacts of 100 bytes each, 200 MB
   const Names of_contacts = metrics_that_need(&MetricNeeds::contacts);
   if (has_gate_on(definition, of_contacts) || has_option_for(of_contacts, options)) return true;
   const bool says_nothing = definition.gates.empty() && options.only_metrics.empty();
-  return options.is_thorough && says_nothing && definition.scene.bodies.size() <= kFewBodies;
+  const double records = static_cast<double>(definition.scene.bodies.size()) * definition.duration / dt;
+  return options.is_thorough && says_nothing && records <= kMostRecords;
 }
 
 // Steps from one whose reactions are asked for to the next, as far as the truth is good for; 0: none is.
@@ -133,7 +134,7 @@ JudgedCell run_once(const Cell& planned, const Case& definition, const EngineTab
   const Simulation run = simulate(engine, run_name.settings, scene, cell.dt.seconds, definition.duration,
                                   {.is_timed = is_timed,
                                    .reactions_every = reactions_every,
-                                   .has_contacts = records_contacts(definition, options)});
+                                   .has_contacts = records_contacts(definition, cell.dt.seconds, options)});
   if (!truth) check_start(run, scene);
   cell.settings = run.settings;
   cell.reduced_order = run.reduced_order;

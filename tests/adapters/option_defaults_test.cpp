@@ -18,13 +18,17 @@ namespace {
 constexpr double kDt = 1.0 / 120;
 constexpr int kSteps = 40;
 
-// A spinning body, bodies that bounce, bodies that do not, and rods on joints: each option acts in one of them at
-// least.
+// A spinning body, bodies that bounce, bodies that do not, rods on joints, and such that a servo turns: each option
+// acts in one of them at least.
 std::vector<Scene> scenes() {
   Joint joint{.a = 0, .b = 1, .type = HingeJoint{{1, 0.1, 0}, {0, 0, 1}}};
   Scene inelastic = small_pile();  // MuJoCo has no restitution
   inelastic.contact_default.restitution = 0;
-  return {scene_of(moving_body()), small_pile(), inelastic, hung_by(joint)};
+  Scene driven = hung_by(joint);
+  Motor motor{.joint = static_cast<int>(driven.joints.size()) - 1};
+  motor.servo = Servo{.target = TimeTable::constant(0.5), .kp = 5, .kd = 0.5};
+  driven.motors = {motor};
+  return {scene_of(moving_body()), small_pile(), inelastic, hung_by(joint), driven};
 }
 
 // Siconos aborts by an assertion of its own ("PivotJoint, _A1 wrong") as soon as this hinge has turned.

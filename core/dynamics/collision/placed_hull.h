@@ -1,6 +1,7 @@
 // A convex polyhedron in another frame than its own: a hull, or a box.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/dynamics/collision/narrow_phase.h"
@@ -29,5 +30,21 @@ struct PlacedHull {
   // Only a cube is stretched; that leaves its normals as they are.
   void place(const Hull& of, const Vec3& stretch, double its_inradius, const Pose& pose);
 };
+
+// The axis along which two polyhedra are separated most, among the face normals of both and the products of those edges
+// whose arcs cross on the Gauss map (Gregorius, The Separating Axis Test between Convex Polyhedra, 2013). Two bounds
+// spare the look at most faces and edges: the other's inscribed ball, and a point of the other that lies deeper behind
+// both faces of an edge than the best face axis found.
+struct HullAxis {
+  double separation = -std::numeric_limits<double>::infinity();
+  Vec3 n = Vec3::Zero();  // unit, in W, from a to b
+  int a = -1, b = -1;     // of a face axis: `a` is the face; of an edge axis: both edges
+};
+
+// Over the faces of `of`; n points out of it. Of equal ones the first counts.
+HullAxis best_face_of(PlacedHull& of, const PlacedHull& other);
+
+// Over pairs of edges, after both calls of best_face_of(), that can separate more than `found` [m].
+HullAxis best_edges_of(PlacedHull& a, PlacedHull& b, double found);
 
 }  // namespace rigor
