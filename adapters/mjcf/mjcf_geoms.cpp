@@ -24,11 +24,6 @@ std::optional<Shape> hull_of_geom(MjcfImport& import, int geom) {
   }
 }
 
-Plane plane_of(const BodyPose& pose) {
-  const Vec3 normal = (pose.orientation * Vec3::UnitZ()).normalized();
-  return {normal, normal.dot(pose.position)};
-}
-
 // The heights of a file are shares of its relief.
 std::vector<std::vector<double>> heights_of(const MjcfImport& import, int field) {
   const int first = import.whole("hfield_adr", field), columns = import.whole("hfield_ncol", field);
@@ -41,8 +36,8 @@ std::vector<std::vector<double>> heights_of(const MjcfImport& import, int field)
   return heights;
 }
 
-// Level ground is a plane, which every engine has.
-std::optional<Shape> field_of_geom(MjcfImport& import, int geom, const BodyPose& pose) {
+// Level ground has the same surface with its four corners alone.
+std::optional<Shape> field_of_geom(MjcfImport& import, int geom) {
   const int field = import.whole("geom_dataid", geom);
   Heightfield out;
   out.size = {2 * import.value("hfield_size", 4 * field), 2 * import.value("hfield_size", 4 * field + 1)};
@@ -51,11 +46,8 @@ std::optional<Shape> field_of_geom(MjcfImport& import, int geom, const BodyPose&
   const bool is_level = std::all_of(out.heights.begin(), out.heights.end(), [=](const std::vector<double>& row) {
     return std::all_of(row.begin(), row.end(), [=](double height) { return height == level; });
   });
-  if (is_level) {
-    import.model.left_out.add(import.at("geom", geom), "a level height field",
-                              assumed(fmt::format("it goes on beyond its {:g} by {:g} m", out.size[0], out.size[1])));
-    return plane_of(pose * BodyPose{{0, 0, level}, Quat::Identity()});
-  }
+  const bool has_cells = out.heights.size() > 1 && out.heights.front().size() > 1;
+  if (is_level && has_cells) out.heights.assign(2, {level, level});
   try {
     out.surface = height_surface(out.size, out.heights);
     return out;
@@ -78,12 +70,14 @@ std::optional<Shape> shape_of(MjcfImport& import, int geom, const BodyPose& pose
       return Cylinder{size.x(), 2 * size.y()};
     case kEllipsoid:
       return Ellipsoid{size};
-    case kPlane:
-      return plane_of(pose);
+    case kPlane: {
+      const Vec3 normal = (pose.orientation * Vec3::UnitZ()).normalized();
+      return Plane{normal, normal.dot(pose.position)};
+    }
     case kMesh:
       return hull_of_geom(import, geom);
     case kHeightField:
-      return field_of_geom(import, geom, pose);
+      return field_of_geom(import, geom);
     default:
       import.lose("geom", geom, "a distance field", "no scene has it: nothing touches it");
       return {};

@@ -23,20 +23,10 @@ foreach(simd ON OFF)
   list(APPEND wasm_cores ${folder}/rigor_core.wasm)
 endforeach()
 file(GLOB wasm_scripts CONFIGURE_DEPENDS ${wasm_room}/*.mjs ${npm_engines}/*.mjs ${npm_engines}/package*.json)
-add_custom_command(OUTPUT ${wasm_build}/engines/installed
-  COMMAND ${CMAKE_COMMAND} -E make_directory ${wasm_build}/engines
-  COMMAND ${CMAKE_COMMAND} -E copy ${wasm_scripts} ${wasm_build}/engines
-  COMMAND ${CMAKE_COMMAND} -E chdir ${wasm_build}/engines ${RIGOR_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
-  COMMAND ${CMAKE_COMMAND} -E touch ${wasm_build}/engines/installed
-  DEPENDS ${wasm_scripts} COMMENT "Installing engines of the npm registry for bench/run --wasm" VERBATIM)
+rigor_npm(${wasm_build}/engines "engines of the npm registry for bench/run --wasm" ${wasm_scripts})
 # Rapier's build with vector instructions, by the same plug-in.
 set(rapier_simd ${wasm_build}/engines/rapier-simd)
 file(GLOB rapier_files CONFIGURE_DEPENDS ${wasm_room}/rapier-simd/package*.json)
-list(APPEND rapier_files ${npm_engines}/rapier.mjs ${npm_engines}/serve.mjs)
-add_custom_command(OUTPUT ${rapier_simd}/installed
-  COMMAND ${CMAKE_COMMAND} -E make_directory ${rapier_simd}
-  COMMAND ${CMAKE_COMMAND} -E copy ${rapier_files} ${rapier_simd}
-  COMMAND ${CMAKE_COMMAND} -E chdir ${rapier_simd} ${RIGOR_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
-  COMMAND ${CMAKE_COMMAND} -E touch ${rapier_simd}/installed
-  DEPENDS ${rapier_files} COMMENT "Installing Rapier with vector instructions for bench/run --wasm" VERBATIM)
+rigor_npm(${rapier_simd} "Rapier with vector instructions for bench/run --wasm" ${rapier_files} ${npm_engines}/rapier.mjs
+  ${npm_engines}/serve.mjs)
 add_custom_target(bench-wasm DEPENDS ${wasm_cores} ${wasm_build}/engines/installed ${rapier_simd}/installed)

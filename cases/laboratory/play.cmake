@@ -49,14 +49,8 @@ add_custom_command(OUTPUT ${play_build}/wasm/rigor_play.wasm
 # Engines of the npm registry; engines.html has them beside the core.
 set(RIGOR_PLAY_ENGINES ammo cannon-es havok jolt mujoco physx rapier CACHE STRING "Files of adapters/plugin/examples/npm that the laboratory carries")
 set(engines ${play_build}/npm)
-file(MAKE_DIRECTORY ${engines})
 file(GLOB engine_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/adapters/plugin/examples/npm/*.mjs ${PROJECT_SOURCE_DIR}/adapters/plugin/examples/npm/package*.json)
-add_custom_command(OUTPUT ${engines}/installed
-  COMMAND ${CMAKE_COMMAND} -E copy ${engine_files} ${engines}
-  COMMAND ${RIGOR_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
-  COMMAND ${CMAKE_COMMAND} -E touch ${engines}/installed
-  DEPENDS ${engine_files} WORKING_DIRECTORY ${engines}
-  COMMENT "Installing engines of the npm registry for the laboratory" VERBATIM)
+rigor_npm(${engines} "engines of the npm registry for the laboratory" ${engine_files})
 
 file(GLOB_RECURSE play_sources CONFIGURE_DEPENDS ${room}/page/* report/html/page/src/* suite/*.toml)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/play)

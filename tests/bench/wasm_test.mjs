@@ -4,33 +4,21 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { cpSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { check, expect, summed } from "../cases/report/html/checks.mjs";
 
 const [rigor, wasm, source] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "rigor-bench-wasm-"));
 const coreOf = (simd) => `env RIGOR_CORE_WASM=${wasm}/core-simd-${simd}/rigor_core.js node ${wasm}/engines/core.mjs`;
-let failed = 0;
-function check(name, body) {
-  try {
-    body();
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAIL  ${name}: ${error.message}`);
-  }
-}
-function expect(condition, message) {
-  if (!condition) throw new Error(message);
-}
 
 const trace = (words) => execFileSync(rigor, ["trace", ...words], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 28 });
 
-check("the core conforms with vector instructions and without", () => {
+await check("the core conforms with vector instructions and without", () => {
   for (const simd of ["ON", "OFF"]) {
     const { stdout } = spawnSync(rigor, ["conform", "--plugin", coreOf(simd)], { encoding: "utf8" });
     expect(/core-wasm(-plain)? conforms/.test(stdout), stdout);
   }
 });
-check("vector instructions give the same bits as none, and as the program's", () => {
+await check("vector instructions give the same bits as none, and as the program's", () => {
   for (const [id, method] of [["contact/stack-of-ten", "semi-implicit-euler,contact=impulse"], ["joints/double-pendulum", "semi-implicit-euler"], ["mechanisms/ragdoll", "velocity-verlet"]]) {
     const rows = (words) => trace([id, "--dt", "1/240", "--duration", "0.5", ...words]);
     const simd = rows(["--engine", `core-wasm:${method}`, "--plugin", coreOf("ON")]);
@@ -65,7 +53,7 @@ function tableOf(runs, goal) {
 }
 const row = (table, start) => table.split("\n").find((line) => line.startsWith(start)) ?? `no row ${start}`;
 
-check("a ratio is that of the times, and a goal is met if nothing is worse", () => {
+await check("a ratio is that of the times, and a goal is met if nothing is worse", () => {
   const table = tableOf([run("core-wasm", { penetration_m: 1e-3 }), run("slow", { penetration_m: 2e-3 })], 2);
   const found = row(table, "made, N = 10 against the fastest, slow"),
     ratio = Number(/ ([\d.]+) x /.exec(found)?.[1]);
@@ -73,11 +61,11 @@ check("a ratio is that of the times, and a goal is met if nothing is worse", () 
   expect(/>= 2 x +yes/.test(found) && found.includes("1.0e-3 / 2.0e-3"), found);
   expect(/>= 50 x +no/.test(row(tableOf([run("core-wasm"), run("slow")], 50), "made, N = 10 against the fastest")), "a goal that is missed");
 });
-check("a goal is not met by a deeper overlap", () => {
+await check("a goal is not met by a deeper overlap", () => {
   const table = tableOf([run("core-wasm", { penetration_m: 3e-3 }), run("slow", { penetration_m: 2e-3 })], 2);
   expect(/>= 2 x +no/.test(row(table, "made, N = 10 against the fastest")), table);
 });
-check("an engine that fails has its reason in its row", () => {
+await check("an engine that fails has its reason in its row", () => {
   const refused = { ...run("slow"), why: "it has no joints" };
   const table = tableOf([run("core-wasm"), run("breaks"), refused], 0);
   expect(row(table, "made, N = 10 against breaks").includes("a number is not finite"), table);
@@ -85,5 +73,4 @@ check("an engine that fails has its reason in its row", () => {
 });
 
 rmSync(folder, { recursive: true });
-console.log(failed === 0 ? "all passed" : `${failed} failed`);
-process.exit(failed === 0 ? 0 : 1);
+process.exit(summed());

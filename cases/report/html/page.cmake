@@ -22,13 +22,7 @@ if(NOT RIGOR_NPM OR NOT RIGOR_NODE)
     "Install nodejs and npm, or build without that report: -DRIGOR_HTML_REPORT=OFF")
 endif()
 
-add_custom_command(OUTPUT ${page_build}/installed
-  COMMAND ${CMAKE_COMMAND} -E copy ${page}/package.json ${page}/package-lock.json ${page_build}
-  COMMAND ${RIGOR_NPM} ci --ignore-scripts --no-audit --no-fund --loglevel=error
-  COMMAND ${CMAKE_COMMAND} -E touch ${page_build}/installed
-  DEPENDS ${page}/package.json ${page}/package-lock.json
-  WORKING_DIRECTORY ${page_build}
-  COMMENT "Installing what the report's page is made of" VERBATIM)
+rigor_npm(${page_build} "what the report's page is made of" ${page}/package.json ${page}/package-lock.json)
 
 file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS ${page}/src/*)
 add_custom_command(OUTPUT ${page_build}/page_bundle.cpp

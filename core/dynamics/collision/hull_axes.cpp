@@ -36,8 +36,8 @@ bool may_part(const PlacedHull& of, const Hull::Edge& edge, const PlacedHull& ot
   return is_between && l * l + r * r - 2 * c * l * r > least * least * square;
 }
 
-// Calls visit(edge) for those that may_part() could allow. Where no faces that share an edge are much more than a right
-// angle apart, an axis between their normals is within 45.6 degrees of one of them.
+// Calls visit(edge) for those that may_part() could allow. An axis between the normals of two faces is within 45.6
+// degrees of one of them, if the normals are at most 91 degrees apart.
 template <typename Visit>
 void for_each_near_edge(const PlacedHull& of, const PlacedHull& other, double found, const Visit& visit) {
   constexpr double kLeastCosine = -0.02, kHalfRightAngle = 0.7;  // its cosine, sqrt((1 + kLeastCosine) / 2)

@@ -15,10 +15,8 @@ struct PlacedHull {
   Vec3 centre;          // m
   std::vector<Vec3> points, normals;
   std::vector<double> offsets;
-  // By face, of the pair that is looked at: the other's point that lies deepest behind it, or -1 where it is not known;
-  // and a bound of the separation along the face's normal, m.
-  std::vector<int> deepest;
-  std::vector<double> bounds;
+  std::vector<int> deepest;    // by face: the other's point that lies deepest behind it, or -1 if that is not known
+  std::vector<double> bounds;  // m, by face: at least the separation along its normal
 
   void place(const Convex& convex, const Pose& pose) { place(*convex.hull, Vec3::Ones(), convex.hull->inradius, pose); }
   void place(const Box& box, const Pose& pose);

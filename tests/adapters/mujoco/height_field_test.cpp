@@ -87,12 +87,23 @@ BOOST_AUTO_TEST_CASE(mujoco_moves_on_the_imported_field_as_on_its_own) {
   BOOST_TEST((here - there).norm() < 1e-6, here.transpose() << " and " << there.transpose());
 }
 
-BOOST_AUTO_TEST_CASE(level_heights_are_a_plane_and_it_is_said) {
-  const std::string text = model(R"(<hfield name="hills" nrow="5" ncol="4" size="2 3 0.5 0.6"/>)");
-  const Plane plane = std::get<Plane>(*scene_of_text("m.xml", text).bodies[1].shape);
-  BOOST_TEST((plane.normal == Vec3::UnitZ()));
-  BOOST_TEST(plane.offset == 0.3);
-  BOOST_TEST(some_has(left_out_of_model("m.xml", text), "it goes on beyond its 4 by 6 m"));
+// A platform is no endless plane: what walks over its edge falls.
+BOOST_AUTO_TEST_CASE(level_heights_keep_their_border) {
+  const std::string text = model(R"(<hfield name="hills" nrow="5" ncol="4" size="2 3 0.5 1"/>)");
+  const Body ground = scene_of_text("m.xml", text).bodies[1];
+  const Heightfield& field = std::get<Heightfield>(*ground.shape);
+  BOOST_TEST((ground.position == Vec3(0.1, -0.2, 0.3)));
+  BOOST_TEST((field.size == std::array<double, 2>{4, 6}));
+  BOOST_TEST((field.heights == std::vector<std::vector<double>>{{0, 0}, {0, 0}}));
+  BOOST_TEST(!some_has(left_out_of_model("m.xml", text), "height field"));
+}
+
+// One row of heights has no ground between them.
+BOOST_AUTO_TEST_CASE(a_field_without_cells_is_lost) {
+  for (const char* grid : {"nrow='1' ncol='1'", "nrow='1' ncol='4'", "nrow='5' ncol='1'"}) {
+    const std::string field = "<hfield name='hills' " + std::string(grid) + " size='2 3 0.5 1'/>";
+    BOOST_TEST(some_has(physics_lost("m.xml", model(field)), "a height field"), grid);
+  }
 }
 
 // The track `matched` leaves the detector of MuJoCo 3, with which boxes do not rest on heights.

@@ -5,26 +5,14 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { Browser } from "../report/html/browser.mjs";
+import { expect, quiet as quietIn, summed } from "../report/html/checks.mjs";
+
+export { check, expect } from "../report/html/checks.mjs";
 
 export const [page, shots, modules] = process.argv.slice(2);
 const files = mkdtempSync(join(tmpdir(), "rigor-laboratory-"));
 mkdirSync(shots, { recursive: true });
 
-let passed = 0,
-  failed = 0;
-export async function check(name, body) {
-  try {
-    await body();
-    ++passed;
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAIL  ${name}: ${error.message}`);
-  }
-}
-export function expect(condition, message) {
-  if (!condition) throw new Error(message);
-}
 export const matches = (text, pattern, what) => expect(pattern.test(text), `${what}: found "${text}", expected ${pattern}`);
 
 export const browser = await Browser.open({ width: 1400, height: 1000 });
@@ -56,10 +44,7 @@ export async function open(fragment = "", at = page) {
   await browser.goTo(pathToFileURL(resolve(at)).href + fragment);
   await until("document.documentElement.dataset.ready", "the laboratory to start");
 }
-export async function quiet() {
-  const complaints = (await browser.complaints()).filter((one) => !one.includes("GPU stall due to ReadPixels"));
-  expect(complaints.length === 0, complaints.join("\n"));
-}
+export const quiet = () => quietIn(browser);
 // Puts files into the page's own input, as a person's choice does: { name: content }.
 export async function choose(contents) {
   const paths = Object.entries(contents).map(([name, content]) => {
@@ -78,6 +63,5 @@ export async function finish(checks) {
     await browser.close();
     rmSync(files, { recursive: true, force: true });
   }
-  console.log(`${passed} passed, ${failed} failed`);
-  process.exit(failed > 0 ? 1 : 0);
+  process.exit(summed());
 }

@@ -34,23 +34,6 @@ JointedRows::JointedRows(const Scene& scene, const System& system, Joints& joint
   }
 }
 
-void JointedRows::place_bodies() {
-  std::size_t next = 0;
-  for (int c = 0; c < joints_.components(); ++c) {
-    of_component_.push_back({next, joints_.bodies_of(c).size()});
-    for (const int body : joints_.bodies_of(c)) place_[static_cast<std::size_t>(body)] = next++;
-  }
-  for (int body = 0; body < static_cast<int>(place_.size()); ++body)
-    if (joints_.component_of(body) < 0) place_[static_cast<std::size_t>(body)] = next++;
-}
-
-JointedRows::Span JointedRows::span_of(int body) const {
-  if (body == kWorld || system_.bodies[body].fixed) return {};
-  const int component = joints_.component_of(body);
-  return component < 0 ? Span{place_[static_cast<std::size_t>(body)], 1}
-                       : of_component_[static_cast<std::size_t>(component)];
-}
-
 void JointedRows::assign(BodyColumns state, const std::vector<ContactConstraint>& contacts, double impulse_scale) {
   pose_ = state;
   through_joints_.set_pose(std::as_const(pose_).columns());
@@ -68,7 +51,7 @@ void JointedRows::assign(BodyColumns state, const std::vector<ContactConstraint>
     const JointCoordinate::Value value = at.coordinate.at(state);
     for (const double sign : {1.0, -1.0, 1.0})
       rows_.push_back(coordinate_row(at.coordinate, value, sign, at.restitution));
-    rows_.back().kind = Kind::motor;
+    rows_.back().is_motor = true;
     rows_[at.first_row].impulse[0] = impulse_scale * at.lower_impulse;
     rows_[at.first_row + 1].impulse[0] = impulse_scale * at.upper_impulse;
     rows_[at.first_row + 2].impulse[0] = impulse_scale * at.motor_impulse;
@@ -121,7 +104,7 @@ JointedRows::Row JointedRows::contact_row(BodyColumns state, const ContactConstr
 // The row of x for a lower limit and a motor, of -x for an upper limit.
 JointedRows::Row JointedRows::coordinate_row(const JointCoordinate& coordinate, const JointCoordinate::Value& at,
                                              double sign, double restitution) const {
-  Row row{.kind = Kind::limit, .body = {coordinate.a(), coordinate.b()}, .directions = 1};
+  Row row{.body = {coordinate.a(), coordinate.b()}, .directions = 1};
   row.turns = coordinate.turns();
   row.J[0][0] = sign * joined(-at.force, at.torque_a);
   row.J[0][1] = sign * joined(at.force, at.torque_b);
@@ -129,73 +112,10 @@ JointedRows::Row JointedRows::coordinate_row(const JointCoordinate& coordinate, 
   return row;
 }
 
-void JointedRows::factorise() {
-  joints_.velocity_impulse(std::as_const(pose_).columns());
-  is_factor_here_ = true;
-}
-
-// The part of the row's impulses that the joints allow, at the pose of the row itself: where the joints allow no motion
-// along it, that is exactly none.
-void JointedRows::know(Row& row) {
-  if (!is_factor_here_) factorise();
-  row.is_known = true;
-  row.moved[0] = span_of(row.body[0]), row.moved[1] = span_of(row.body[1]);
-  const bool is_same = row.moved[0].count > 0 && row.moved[0].first == row.moved[1].first;
-  if (is_same) row.moved[1] = {};
-  row.responses = responses_.size();
-  const std::vector<int> bodies = through_joints_.moved_by(row.body[0], row.body[1]);
-  for (int d = 0; d < row.directions; ++d) {
-    const std::vector<Vec6>& change = through_joints_.of(bodies, row.body[0], row.J[d][0], row.body[1], row.J[d][1]);
-    for (const int body : bodies) responses_.push_back(change[static_cast<std::size_t>(body)]);
-  }
-  find_masses(row);
-  row.lever = lever_of(row);
-}
-
 // Whether it touches or could within the sub-step. A row that does not has no part in impacts and is not soft.
 bool JointedRows::may_act(const Row& row) const {
   const double near = row.turns ? kFarAngle : parameters_.touching;
-  return row.kind != Kind::motor && (row.gap <= near || row.gap < 2 * parameters_.h * row.approach);
-}
-
-void JointedRows::find_masses(Row& row) const {
-  const std::size_t count = row.moved[0].count + row.moved[1].count;
-  const auto K = [&](int d, int by) {
-    double sum = 0;
-    for (int end = 0; end < 2; ++end) {
-      if (span_of(row.body[end]).count == 0) continue;
-      const std::size_t place = place_[static_cast<std::size_t>(row.body[end])];
-      const Span &first = row.moved[0], &second = row.moved[1];
-      const std::size_t at =
-          place - first.first < first.count ? place - first.first : first.count + place - second.first;
-      sum += row.J[d][end].dot(responses_[row.responses + static_cast<std::size_t>(by) * count + at]);
-    }
-    return sum;
-  };
-  // A row along which the joints allow no motion gets no impulse.
-  const auto inverse = [](double k, double scale) { return k > 1e-12 * scale ? 1 / k : 0; };
-  const auto scale = [&](int d) {
-    double sum = 0;
-    for (int end = 0; end < 2; ++end) sum += row.J[d][end].dot(through_joints_.alone(row.body[end], row.J[d][end]));
-    return sum;
-  };
-  row.mass = inverse(K(0, 0), scale(0));
-  if (row.directions == 1) return;
-  const double tt = K(1, 1), ss = K(2, 2), ts = K(1, 2);
-  row.tangent_mass = tangent_mass_of(tt, ss, ts);
-  if (tt * ss - ts * ts > 1e-12 * scale(1) * scale(2)) return;
-  // The joints leave at most one direction to slip in: one mass for all.
-  const double larger = 0.5 * (tt + ss) + std::hypot(0.5 * (tt - ss), ts);
-  row.tangent_mass.slip = inverse(larger, scale(1) + scale(2));
-  row.tangent_mass.tt = row.tangent_mass.ss = row.tangent_mass.slip, row.tangent_mass.ts = 0;
-}
-
-// The radius at which the bodies' mass would have the inertia that the row feels.
-double JointedRows::lever_of(const Row& row) const {
-  if (!row.turns) return 1;
-  double inverse_mass = 0;
-  for (const int body : row.body) inverse_mass += body == kWorld ? 0 : system_.bodies[body].inverse_mass;
-  return std::sqrt(row.mass * inverse_mass);
+  return !row.is_motor && (row.gap <= near || row.gap < 2 * parameters_.h * row.approach);
 }
 
 void JointedRows::load_velocities(BodyColumns state) {
@@ -251,10 +171,9 @@ void JointedRows::prepare(BodyColumns state, double t, const SolverParameters& p
     row.approach = -speed(row, 0);
     if (!row.is_known && may_act(row)) know(row);
     row.bias = bias_of(row);
-    row.is_impact = row.is_known && row.lever * row.approach > parameters.restitution_threshold &&
+    row.is_impact = row.is_known && !row.is_motor && row.lever * row.approach > parameters.restitution_threshold &&
                     row.gap < 2 * parameters.h * row.approach;
   }
-  for (const Coordinate& at : coordinates_) rows_[at.first_row + 2].is_impact = false;
 }
 
 // Speculative: the gap closes by h (theta u' + (1 - theta) u), of which only the velocity after, u', can be chosen.

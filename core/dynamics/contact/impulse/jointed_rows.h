@@ -46,9 +46,7 @@ class JointedRows {
   struct Span {  // of velocities_: the bodies that joints connect with one, or that one alone
     std::size_t first = 0, count = 0;
   };
-  enum class Kind { contact, limit, motor };
   struct Row {
-    Kind kind = Kind::contact;
     int body[2] = {kWorld, kWorld};
     int directions = 1;  // a normal alone, or with two tangents
     Vec6 J[3][2] = {{Vec6::Zero(), Vec6::Zero()},
@@ -58,7 +56,8 @@ class JointedRows {
     Vec3 normal = Vec3::Zero(),
          apart = Vec3::Zero();  // of a contact: unit; m, from b's point to a's when contacts were updated
     double initial_gap = 0, friction = 0, restitution = 0;
-    bool turns = false;             // an angle
+    bool turns = false;  // an angle
+    bool is_motor = false;
     bool is_known = false;          // what follows, up to the tangents' mass
     Span moved[2] = {};             // by its impulses
     std::size_t responses = 0;      // the first of those of direction 0; the others' follow
@@ -82,13 +81,16 @@ class JointedRows {
   Row contact_row(BodyColumns state, const ContactConstraint& contact) const;
   Row coordinate_row(const JointCoordinate& coordinate, const JointCoordinate::Value& at, double sign,
                      double restitution) const;
+  bool may_act(const Row& row) const;
+
+  // jointed_row_masses.cpp
   void place_bodies();
   Span span_of(int body) const;
   void factorise();
-  bool may_act(const Row& row) const;
   void know(Row& row);
   void find_masses(Row& row) const;
   double lever_of(const Row& row) const;
+
   double speed(const Row& row, int direction) const;  // of the row
   void apply(const Row& row, int direction, double impulse);
   void solve_normal(Row& row, double impulse);

@@ -2,35 +2,18 @@
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { expect } from "./checks.mjs";
+
+export { check, expect, quiet, summed } from "./checks.mjs";
 
 export const [report, resultsFile, shots] = process.argv.slice(2);
 export const url = pathToFileURL(report).href;
 export const results = JSON.parse(readFileSync(resultsFile, "utf8"));
 mkdirSync(shots, { recursive: true });
 
-let passed = 0,
-  failed = 0;
-export async function check(name, body) {
-  try {
-    await body();
-    ++passed;
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAIL  ${name}: ${error.message}`);
-  }
-}
-export function expect(condition, message) {
-  if (!condition) throw new Error(message);
-}
 export const equal = (found, wanted, what) =>
   expect(found === wanted, `${what}: found ${JSON.stringify(found)}, expected ${JSON.stringify(wanted)}`);
 
-// Chromium tells of screenshots that they cost time; of the page it must have nothing to say.
-export async function quiet(browser) {
-  const complaints = (await browser.complaints()).filter((text) => !text.includes("GPU stall due to ReadPixels"));
-  expect(!complaints.length, complaints.join("\n"));
-}
 export const shoot = async (browser, name, whole = false) =>
   writeFileSync(join(shots, `${name}.png`), await browser.screenshot({ whole }));
 export const ready = (browser) =>
@@ -66,8 +49,3 @@ export const colours = (browser, selector) =>
   );
 
 export const spring = "springs/fixed-spring";
-
-export function summed() {
-  console.log(`${passed} passed, ${failed} failed`);
-  return failed ? 1 : 0;
-}

@@ -6,6 +6,7 @@ import { extname, join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { setTimeout as sleep } from "node:timers/promises";
 import { Browser } from "../html/browser.mjs";
+import { check, expect, summed } from "../html/checks.mjs";
 
 const [site, caseName, shots] = process.argv.slice(2);
 const modules = process.env.RIGOR_PAGE_MODULES;
@@ -23,19 +24,6 @@ await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
 const served = `http://127.0.0.1:${server.address().port}/`,
   local = pathToFileURL(join(site, "/")).href;
 
-let failed = 0;
-async function check(name, body) {
-  try {
-    await body();
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAIL  ${name}: ${error.message}`);
-  }
-}
-const expect = (condition, message) => {
-  if (!condition) throw new Error(message);
-};
 const quiet = async (browser) => {
   const complaints = (await browser.complaints()).filter((text) => !text.includes("GPU stall") && !text.includes("favicon"));
   expect(!complaints.length, complaints.join("\n"));
@@ -94,4 +82,4 @@ await check("the matrix and the badge are on the front page", async () => {
 });
 await browser.close();
 server.close();
-process.exit(failed ? 1 : 0);
+process.exit(summed());

@@ -1,0 +1,25 @@
+# How emscripten compiles the sources of a target: those of a folder together, eight at a time, as in the build of the
+# program (rigor_compile_together), with the same precompiled headers. HEADERS is a folder of links to the libraries'
+# headers. What the compiler's standard library lacks stands in compat/.
+function(compile_together target)
+  get_filename_component(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../.. ABSOLUTE)
+  foreach(source ${ARGN})
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${root} OUTPUT_VARIABLE path)
+    string(REGEX MATCH "^.*/" room ${path})
+    string(REPLACE "/" "_" group ${room})
+    if(NOT DEFINED count_${group})
+      set(count_${group} 0)
+    endif()
+    math(EXPR part "${count_${group}} / 8")
+    math(EXPR count_${group} "${count_${group}} + 1")
+    if(NOT path MATCHES "/(bullet|kernels|model|ode|solved)/[^/]+$")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}${part})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
+  target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <functional> <map> <memory> <optional> <string>
+    <string_view> <utility> <vector> <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <fmt/format.h> ${root}/core/engine/engine.h)
+  target_include_directories(${target} PUBLIC ${root})
+  target_include_directories(${target} SYSTEM PUBLIC ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/compat ${HEADERS})
+endfunction()
