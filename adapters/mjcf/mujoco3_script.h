@@ -1,4 +1,4 @@
-// What JavaScript does to compile an MJCF file with MuJoCo 3, as plain data: answerTo(MuJoCo, request, read, warnings).
+// JavaScript that compiles an MJCF file with MuJoCo 3 to plain data: answerTo(MuJoCo, request, read, warnings).
 // mujoco3_reader.cpp starts it in Node. The laboratory's page (cases/laboratory/page/build.mjs) takes the same text
 // from this file.
 #pragma once

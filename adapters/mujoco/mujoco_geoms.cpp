@@ -36,8 +36,8 @@ struct GeomOf {
 double relief(const Heightfield& field) { return field.surface->high.z() - field.surface->low.z(); }
 
 // MuJoCo's ground ends below, and the motion on it depends on where: its detector starts from the middle of a column.
-// Of 0.001, 0.01, 0.1 and 1 times the width this one has the smallest errors on surfaces/box-over-seams and
-// surfaces/slope-of-triangles together.
+// Four shares of the width were tried: 0.001, 0.01, 0.1 and 1. This one has the smallest product of the errors on
+// surfaces/box-over-seams and surfaces/slope-of-triangles.
 constexpr double kBaseOfWidth = 0.1;
 
 // The element without its heights, which are shares of the relief. Its cells have the same diagonals as the scene's.

@@ -270,7 +270,7 @@ class Writer {
     add("\n</tendon>\n");
   }
 
-  // Of MuJoCo's coordinate, against the scene's.
+  // -1 where MuJoCo's coordinate counts against the scene's.
   std::function<double(int)> sign_of_joint() const {
     return [this](int joint) { return scene_.joints[joint].b == body_on(scene_, tree_, joint) ? 1.0 : -1.0; };
   }

@@ -57,7 +57,7 @@ inline const OptionInfo kMujocoServo{
     .choices = {"computed", "native"},
     .by_default = "computed"};
 
-// What the versions of MuJoCo need on the track `matched`.
+// The versions of MuJoCo differ in what they need on the track `matched`.
 struct MujocoVersion {
   double tolerance;            // of the solver
   bool has_native_collisions;  // MuJoCo 3's own detector beside libccd

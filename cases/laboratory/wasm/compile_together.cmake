@@ -1,6 +1,6 @@
 # How emscripten compiles the sources of a target: those of a folder together, eight at a time, as in the build of the
 # program (rigor_compile_together), with the same precompiled headers. HEADERS is a folder of links to the libraries'
-# headers. What the compiler's standard library lacks stands in compat/.
+# headers. compat/ has what the compiler's standard library lacks.
 function(compile_together target)
   get_filename_component(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../.. ABSOLUTE)
   foreach(source ${ARGN})

@@ -77,7 +77,7 @@ void edges_worth_a_look(PlacedHull& of, const PlacedHull& other, double found, s
 }  // namespace
 
 // Over the faces of `of`; n points out of it. The other's inscribed ball bounds each separation from above, so few
-// faces need a look at all of its points. Of equal ones the first counts.
+// faces need a look at all of its points. The first of equal ones counts.
 HullAxis best_face_of(PlacedHull& of, const PlacedHull& other) {
   const std::size_t faces = of.normals.size();
   of.deepest.assign(faces, -1), of.bounds.resize(faces);

@@ -29,17 +29,17 @@ struct PlacedHull {
   void place(const Hull& of, const Vec3& stretch, double its_inradius, const Pose& pose);
 };
 
-// The axis along which two polyhedra are separated most, among the face normals of both and the products of those edges
-// whose arcs cross on the Gauss map (Gregorius, The Separating Axis Test between Convex Polyhedra, 2013). Two bounds
-// spare the look at most faces and edges: the other's inscribed ball, and a point of the other that lies deeper behind
-// both faces of an edge than the best face axis found.
+// The axis along which two polyhedra are separated most: a face normal, or the product of two edges whose arcs cross on
+// the Gauss map (Gregorius, The Separating Axis Test between Convex Polyhedra, 2013). Most faces and edges need no
+// look, for the other's inscribed ball bounds their separation. Nor does an edge if a point of the other lies deeper
+// behind both of its faces than the best face axis found.
 struct HullAxis {
   double separation = -std::numeric_limits<double>::infinity();
   Vec3 n = Vec3::Zero();  // unit, in W, from a to b
   int a = -1, b = -1;     // of a face axis: `a` is the face; of an edge axis: both edges
 };
 
-// Over the faces of `of`; n points out of it. Of equal ones the first counts.
+// Over the faces of `of`; n points out of it. The first of equal ones counts.
 HullAxis best_face_of(PlacedHull& of, const PlacedHull& other);
 
 // Over pairs of edges, after both calls of best_face_of(), that can separate more than `found` [m].

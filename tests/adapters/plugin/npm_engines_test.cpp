@@ -137,10 +137,6 @@ kind = "none"
 metric = "contact_balance"
 max = 1e-9
 because = "roundings of 1000 N"
-[[gate]]
-metric = "force_peak"
-max = 1
-because = "named, so that a run without forces would fail"
 )");
   const Answer answer = run(folder, "gate " + scene + " --engine cannon-es" + plugin("cannon-es"));
   BOOST_TEST(has(answer.out, "1 held, 0 failed"), answer.out);

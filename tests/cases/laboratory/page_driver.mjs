@@ -1,4 +1,4 @@
-// What the tests of the laboratory's page share: one headless Chromium, and controls used as a person uses them. Words:
+// The tests of the laboratory's page share one headless Chromium, and use its controls as a person does. Words:
 // PAGE.html SHOTS-FOLDER FOLDER-OF-node_modules.
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";

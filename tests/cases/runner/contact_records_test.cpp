@@ -1,4 +1,4 @@
-// Which cells have contact forces: where a gate names one of their metrics, and in cases without gates.
+// Cells have contact forces where a gate names one of their metrics, and in cases without gates.
 #include <boost/test/unit_test.hpp>
 
 #include "adapters/engines.h"

@@ -60,7 +60,7 @@ function addJoint(world, scene, joint, bodies) {
   world.addConstraint(new CANNON.HingeConstraint(a.made, b.made, { pivotA, axisA, pivotB, axisB, collideConnected: true }));
 }
 
-// Of the last step. Each contact has two rows of friction after those of the contacts before it, or none at all.
+// The contacts of the last step. Each has two rows of friction after those of the contacts before it, or none at all.
 function contactsOf(world, bodies) {
   const place = new Map(bodies.map(({ made }, i) => [made, i])), { contacts, frictionEquations: rows } = world;
   return contacts.map(({ bi, bj, ni, ri, rj, multiplier }, k) => {

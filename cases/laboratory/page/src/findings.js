@@ -26,7 +26,7 @@ export class Findings {
             el(
               "tr",
               {},
-              ["method", "energy, of what is in play", "error", "turned wrong", "verdict"].map((text) =>
+              ["method", "energy, of what is in play", "largest error", "turned wrong", "verdict"].map((text) =>
                 el("th", { scope: "col" }, text),
               ),
             ),
