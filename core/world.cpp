@@ -173,14 +173,16 @@ class CoreWorld : public World, public MayReduceOrder, public MayDivideSteps, pu
 
 // What joints ask for; a method takes all of it, or none, or all but dampers.
 const Features kJointFeatures = joined(
-    joints_of_all_types(), {Feature::joint_spring, Feature::quadratic_spring, Feature::joint_damper,
-                            Feature::joint_friction, Feature::motor_effort, Feature::motor_servo, Feature::motor_speed,
-                            Feature::motor_table, Feature::joints_with_dampers, Feature::joint_limit,
-                            Feature::joint_limit_beyond_half_turn, Feature::armature, Feature::coupling});
+    joints_of_all_types(),
+    {Feature::joint_spring, Feature::quadratic_spring, Feature::joint_damper, Feature::joint_friction,
+     Feature::motor_effort, Feature::motor_servo, Feature::motor_speed, Feature::motor_table,
+     Feature::joints_with_dampers, Feature::joint_limit, Feature::joint_limit_beyond_half_turn, Feature::armature,
+     Feature::coupling, Feature::coupling_of_several_joints, Feature::motor_servo_of_several_joints});
 
 // What only a twin has that says so.
-const Features kBeyondTwins =
-    joined(joints_of_types<CompoundJoint, PlanarJoint, ScrewJoint>(), {Feature::armature, Feature::coupling});
+const Features kBeyondTwins = joined(joints_of_types<CompoundJoint, PlanarJoint, ScrewJoint>(),
+                                     {Feature::armature, Feature::coupling, Feature::coupling_of_several_joints,
+                                      Feature::motor_servo_of_several_joints});
 
 OptionInfo contact_option() {
   OptionInfo option{.name = "contact",

@@ -41,7 +41,8 @@ std::vector<Fault> joint_faults() {
                  }),
       on_loading("a coupling's ratio inverted",
                  [](Scene& s) {
-                   for (Coupling& coupling : s.couplings) coupling.ratio = 1 / coupling.ratio;
+                   for (Coupling& coupling : s.couplings)
+                     for (JointTerm& term : coupling.to) term.ratio = 1 / term.ratio;
                  }),
       on_loading("a joint left out", [](Scene& s) { s.joints.clear(), s.couplings.clear(), s.motors.clear(); }),
   };

@@ -58,34 +58,68 @@ void add_effort(MjcfImport& import, int row, double effort) {
   if (effort != 0) import.model.motors.push_back(motor);
 }
 
+// effort = gear * (constant + b1 gear q + b2 gear q'), with q counted from the start as x.
+Servo servo_of(const Law& law, double gear, double start) {
+  Servo servo;
+  servo.kp = -law.by_length * gear * gear, servo.kd = -law.by_speed * gear * gear;
+  servo.target = TimeTable::constant(servo.kp > 0 ? gear * law.constant / servo.kp - start : 0);
+  servo.target_speed = servo.kp > 0 || servo.kd == 0 ? 0 : gear * law.constant / servo.kd;
+  return servo;
+}
+
 void drive_joint(MjcfImport& import, int k, const Law& law) {
   const int joint = import.whole("actuator_trnid", 2 * k), row = import.row_of_joint[joint];
   const double gear = import.value("actuator_gear", kGears * k);
   if (row < 0) return lose_drive(import, k, "acts on a joint without an axis of its own");
   if (import.whole("jnt_actfrclimited", joint))
     return import.lose("joint", joint, "actuatorfrcrange", "bounds the sum of all drives of the joint");
-  const double kp = -law.by_length * gear * gear, kd = -law.by_speed * gear * gear;
-  if (kp < 0 || kd < 0) return lose_drive(import, k, "pushes away from its target, which no servo of a scene does");
-  if (kp == 0 && kd == 0) return add_effort(import, row, gear * std::clamp(law.constant, law.least, law.most));
+  Servo servo = servo_of(law, gear, import.start_of(joint));
+  if (servo.kp < 0 || servo.kd < 0)
+    return lose_drive(import, k, "pushes away from its target, which no servo of a scene does");
+  if (servo.kp == 0 && servo.kd == 0)
+    return add_effort(import, row, gear * std::clamp(law.constant, law.least, law.most));
   if (law.least != -law.most)
     return lose_drive(import, k, "has unequal bounds of its force, which no servo of a scene has");
-  // effort = gear * (constant + b1 gear q + b2 gear q'), with q counted from the start as x.
-  Servo servo;
-  servo.kp = kp, servo.kd = kd, servo.most = std::abs(gear) * law.most;
-  servo.target = TimeTable::constant(kp > 0 ? gear * law.constant / kp - import.start_of(joint) : 0);
-  servo.target_speed = kp > 0 ? 0 : gear * law.constant / kd;
-  if (kp > 0 && import.may_turn_round(joint))
+  servo.most = std::abs(gear) * law.most;
+  if (servo.kp > 0 && import.may_turn_round(joint))
     import.lose("actuator", k, "a servo beyond half a turn", "a scene's servo does not count whole turns");
   Motor motor;
   motor.joint = row, motor.servo = servo;
   import.model.motors.push_back(motor);
 }
 
+// The tendon's length is the sum of coefficient times q. It is counted here in units of its first joint.
+void add_servo_of_tendon(MjcfImport& import, int k, const Law& law, int tendon) {
+  if (std::isfinite(law.least) || std::isfinite(law.most))
+    return lose_drive(import, k, "is a servo over a tendon with a bound of its force, which no scene has");
+  const int first = import.whole("tendon_adr", tendon), count = import.whole("tendon_num", tendon);
+  const double unit = import.value("wrap_prm", first);
+  if (unit == 0) return lose_drive(import, k, "is a servo over a tendon whose first joint has the coefficient 0");
+  const double gear = import.value("actuator_gear", kGears * k) * unit;
+  Motor motor;
+  double start = 0;  // of the sum, in those units
+  for (int i = first; i < first + count; ++i) {
+    const int joint = import.whole("wrap_objid", i);
+    const double ratio = import.value("wrap_prm", i) / unit;
+    if (import.row_of_joint[joint] < 0) return lose_drive(import, k, "acts on a joint without an axis of its own");
+    if (import.may_turn_round(joint))
+      return lose_drive(import, k, "is a servo over a joint that may turn round, whose turns no scene counts");
+    if (i == first)
+      motor.joint = import.row_of_joint[joint];
+    else if (ratio != 0)
+      motor.plus.push_back({import.row_of_joint[joint], ratio});
+    start += ratio * import.start_of(joint);
+  }
+  motor.servo = servo_of(law, gear, start);
+  if (motor.servo->kp < 0 || motor.servo->kd < 0)
+    return lose_drive(import, k, "pushes away from its target, which no servo of a scene does");
+  import.model.motors.push_back(motor);
+}
+
 void drive_tendon(MjcfImport& import, int k, const Law& law) {
   const int tendon = import.whole("actuator_trnid", 2 * k), first = import.whole("tendon_adr", tendon);
   if (import.whole("wrap_type", first) != kWrapJoint) return lose_drive(import, k, "pulls a spatial tendon");
-  if (law.by_length != 0 || law.by_speed != 0)
-    return lose_drive(import, k, "is a servo over a tendon; a scene's servo acts on one joint");
+  if (law.by_length != 0 || law.by_speed != 0) return add_servo_of_tendon(import, k, law, tendon);
   if (import.whole("tendon_actfrclimited", tendon))
     return lose_drive(import, k, "has its force bounded by its tendon, too");
   for (int i = first; i < first + import.whole("tendon_num", tendon); ++i) {

@@ -85,12 +85,13 @@ void refuse_open(MjcfImport& import, int k, double gap) {
                     import.at("equality", k), gap));
 }
 
-void add_coupling(MjcfImport& import, int k, int joint, int to, double ratio, double gap) {
-  if (import.row_of_joint[joint] < 0 || import.row_of_joint[to] < 0)
+// `terms`: of MuJoCo's joints.
+void add_coupling(MjcfImport& import, int k, int joint, const std::vector<JointTerm>& terms, double gap) {
+  LinkCoupling row{joint, terms, 0, import.at("equality", k)};
+  if (!renumber(row, import.row_of_joint))
     return import.lose("equality", k, "an equality of joints", "one of them has no axis of its own");
   refuse_open(import, k, std::abs(gap));
-  import.model.couplings.push_back(
-      {import.row_of_joint[joint], import.row_of_joint[to], ratio, 0, import.at("equality", k)});
+  import.model.couplings.push_back(std::move(row));
 }
 
 // q1 - q1(0) = polynomial of q2 - q2(0).
@@ -103,7 +104,7 @@ void read_joint_equality(MjcfImport& import, int k) {
   if (other < 0 || data(2) != 0 || data(3) != 0 || data(4) != 0)
     return import.lose("equality", k, other < 0 ? "an equality that holds a joint" : "an equality that is no line",
                        "a scene's coupling is a ratio of two joints");
-  add_coupling(import, k, one, other, data(1), moved(one) - data(0) - data(1) * moved(other));
+  add_coupling(import, k, one, {{other, data(1)}}, moved(one) - data(0) - data(1) * moved(other));
 }
 
 void read_tendon_equality(MjcfImport& import, int k) {
@@ -117,15 +118,20 @@ void read_tendon_equality(MjcfImport& import, int k) {
     return;
   }
   const FixedTendon fixed = is_fixed_tendon(import, tendon) ? fixed_tendon(import, tendon) : FixedTendon();
-  if (import.whole("eq_obj2id", k) >= 0 || fixed.joints.size() != 2)
-    return import.lose("equality", k, "an equality of tendons", "a scene's coupling is a ratio of two joints");
-  const auto& [one, first] = fixed.joints[0];
-  const auto& [other, second] = fixed.joints[1];
+  if (import.whole("eq_obj2id", k) >= 0 || fixed.joints.size() < 2)
+    return import.lose("equality", k, "an equality of tendons", "a scene's coupling is a sum of joints");
   const auto moved = [&](int joint) {
     return import.start_of(joint) - import.value("qpos0", import.whole("jnt_qposadr", joint));
   };
-  const double gap = moved(one) + second / first * moved(other) - import.value("eq_data", kEqualityNumbers * k) / first;
-  add_coupling(import, k, one, other, -second / first, gap);
+  // coefficient_1 x_1 + coefficient_2 x_2 + ... = constant
+  const auto& [one, first] = fixed.joints.front();
+  std::vector<JointTerm> terms;
+  double gap = moved(one) - import.value("eq_data", kEqualityNumbers * k) / first;
+  for (auto other = fixed.joints.begin() + 1; other != fixed.joints.end(); ++other) {
+    terms.push_back({other->first, -other->second / first});
+    gap -= terms.back().ratio * moved(other->first);
+  }
+  add_coupling(import, k, one, terms, gap);
 }
 
 void read_equality(MjcfImport& import, int k) {

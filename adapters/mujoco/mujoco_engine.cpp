@@ -83,6 +83,7 @@ Features mujoco_features() {
                                   joint_feature<UniversalJoint>(),
                                   Feature::armature,
                                   Feature::coupling,
+                                  Feature::coupling_of_several_joints,
                                   Feature::joint_spring,
                                   Feature::joint_damper,
                                   Feature::joint_friction,
@@ -93,6 +94,7 @@ Features mujoco_features() {
                                   Feature::joints_with_dampers,
                                   Feature::motor_effort,
                                   Feature::motor_servo,
+                                  Feature::motor_servo_of_several_joints,
                                   Feature::motor_table});
 }
 

@@ -249,6 +249,8 @@ class Exporter {
         add("    <spatial name=\"distance{0}\"><site site=\"distance{0}a\"/><site site=\"distance{0}b\"/></spatial>\n",
             k);
     }
+    const std::vector<MjcfCoupling> rows = couplings();
+    for (std::size_t k = 0; k < rows.size(); ++k) add("{}", rows[k].tendon(k));
     add("  </tendon>\n");
   }
 
@@ -279,17 +281,18 @@ class Exporter {
 
   void add_couplings() {
     for (std::size_t k = 0; k < scene_.couplings.size(); ++k) {
-      const Coupling& coupling = scene_.couplings[k];
-      if (closes_loop(scene_, tree_, coupling.joint) || closes_loop(scene_, tree_, coupling.to))
+      if (is_of_a_loop(scene_, tree_, scene_.couplings[k]))
         leave_out(scene_.coupling_name(k), "is of a joint that closes a loop, which has no coordinate in MuJoCo");
     }
+    const std::vector<MjcfCoupling> rows = couplings();
+    for (std::size_t k = 0; k < rows.size(); ++k) add("    {}", rows[k].equality(k));
+  }
+  std::vector<MjcfCoupling> couplings() const {
     constexpr std::size_t kScrews = 2;  // elements of a screw; other joints with a coordinate have one
     const auto name = [&](int joint, std::size_t element) {
       return element < kScrews ? element_name(joint, element) : joint_name(joint);
     };
-    for (const MjcfCoupling& row : mjcf_couplings(scene_, tree_, name, [](int) { return 1.0; }))
-      add("    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\"/>\n", row.first, row.second, row.constant,
-          row.ratio);
+    return mjcf_couplings(scene_, tree_, name, [](int) { return 1.0; });
   }
 
   void add_motors() {

@@ -1,4 +1,6 @@
 // The elements of MJCF that stand for joints, loops and couplings.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -69,15 +71,36 @@ std::vector<MjcfCoupling> mjcf_couplings(const Scene& scene, const SpanningTree&
   for (int k = 0; k < static_cast<int>(scene.joints.size()); ++k) {
     const auto* screw = std::get_if<ScrewJoint>(&scene.joints[k].type);
     if (!screw || closes_loop(scene, tree, k)) continue;
-    rows.push_back({name_of(k, 0), name_of(k, 1), 0, screw->pitch / (2 * std::numbers::pi)});
+    rows.push_back({name_of(k, 0), {{name_of(k, 1), screw->pitch / (2 * std::numbers::pi)}}, 0});
   }
   for (const Coupling& coupling : scene.couplings) {
-    if (closes_loop(scene, tree, coupling.joint) || closes_loop(scene, tree, coupling.to)) continue;
+    if (is_of_a_loop(scene, tree, coupling)) continue;
     const double sign = sign_of(coupling.joint);
-    rows.push_back({name_of(coupling.joint, kOnly), name_of(coupling.to, kOnly), sign * coupling.offset,
-                    sign * sign_of(coupling.to) * coupling.ratio});
+    MjcfCoupling& row = rows.emplace_back(MjcfCoupling{name_of(coupling.joint, kOnly), {}, sign * coupling.offset});
+    for (const JointTerm& term : coupling.to)
+      row.others.push_back({name_of(term.joint, kOnly), sign * sign_of(term.joint) * term.ratio});
   }
   return rows;
+}
+
+bool is_of_a_loop(const Scene& scene, const SpanningTree& tree, const Coupling& coupling) {
+  const auto closes = [&](const JointTerm& term) { return closes_loop(scene, tree, term.joint); };
+  return closes_loop(scene, tree, coupling.joint) || std::any_of(coupling.to.begin(), coupling.to.end(), closes);
+}
+
+std::string MjcfCoupling::tendon(std::size_t number) const {
+  if (others.size() == 1) return "";
+  std::string joints = fmt::format(R"(<joint joint="{}" coef="1"/>)", first);
+  for (const auto& [element, ratio] : others)
+    joints += fmt::format(R"(<joint joint="{}" coef="{}"/>)", element, -ratio);
+  return fmt::format("<fixed name=\"coupling{}\">{}</fixed>\n", number, joints);
+}
+
+std::string MjcfCoupling::equality(std::size_t number) const {
+  if (others.size() > 1)
+    return fmt::format("<tendon tendon1=\"coupling{}\" polycoef=\"{} 0 0 0 0\"/>\n", number, constant);
+  return fmt::format("<joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\"/>\n", first, others.front().element,
+                     constant, others.front().ratio);
 }
 
 MjcfLoop mjcf_loop(const Joint& joint) {

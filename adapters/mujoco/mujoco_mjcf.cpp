@@ -66,9 +66,7 @@ class Writer {
     write_tendons();
     write_loops();
     write_pairs();
-    if (has_native_servos(scene_, settings_))
-      add("{}", mjcf_actuators(
-                    scene_, [](int joint) { return element_name(joint, kOnlyElement); }, sign_of_joint()));
+    if (has_native_servos(scene_, settings_)) add("{}", mjcf_actuators(scene_, element_of_joint(), sign_of_joint()));
     add("</mujoco>\n");
     return std::move(out_);
   }
@@ -267,9 +265,16 @@ class Writer {
       if (std::holds_alternative<DistanceJoint>(scene_.joints[k].type))
         add(R"(<spatial name="d{0}"><site site="d{0}a"/><site site="d{0}b"/></spatial>)", k);
     }
+    const std::vector<MjcfCoupling> rows = couplings();
+    for (std::size_t k = 0; k < rows.size(); ++k) add("{}", rows[k].tendon(k));
+    if (has_native_servos(scene_, settings_))
+      add("{}", mjcf_servo_tendons(scene_, element_of_joint(), sign_of_joint()));
     add("\n</tendon>\n");
   }
 
+  static std::function<std::string(int)> element_of_joint() {
+    return [](int joint) { return element_name(joint, kOnlyElement); };
+  }
   // -1 where MuJoCo's coordinate counts against the scene's.
   std::function<double(int)> sign_of_joint() const {
     return [this](int joint) { return scene_.joints[joint].b == body_on(scene_, tree_, joint) ? 1.0 : -1.0; };
@@ -278,22 +283,19 @@ class Writer {
   void write_loops() {
     add("<equality>\n");
     for (const int k : tree_.loops) write_loop(k);
-    for (const Coupling& coupling : scene_.couplings) {
-      for (const int joint : {coupling.joint, coupling.to})
-        if (closes_loop(scene_, tree_, joint)) refuse(joint);
-    }
-    const auto name = [](int joint, std::size_t element) { return element_name(joint, element); };
-    for (const MjcfCoupling& row : mjcf_couplings(scene_, tree_, name, sign_of_joint()))
-      add("<joint joint1=\"{}\" joint2=\"{}\" polycoef=\"{} {} 0 0 0\"/>\n", row.first, row.second, row.constant,
-          row.ratio);
+    for (const Coupling& coupling : scene_.couplings)
+      if (is_of_a_loop(scene_, tree_, coupling)) refuse(coupling.joint);
+    const std::vector<MjcfCoupling> rows = couplings();
+    for (std::size_t k = 0; k < rows.size(); ++k) add("{}", rows[k].equality(k));
     add("</equality>\n");
   }
+  std::vector<MjcfCoupling> couplings() const { return mjcf_couplings(scene_, tree_, element_name, sign_of_joint()); }
 
   // An equality has no coordinate that a spring, a damper or a motor could act on.
   void refuse_drive(int index) const {
     const Joint& joint = scene_.joints[index];
     const bool has_motor = std::any_of(scene_.motors.begin(), scene_.motors.end(),
-                                       [&](const Motor& motor) { return motor.joint == index; });
+                                       [&](const Motor& motor) { return motor.drives(index); });
     if (joint.stiffness == 0 && joint.damping == 0 && joint.armature == 0 && !has_motor && !joint.has_limits()) return;
     refuse(index);
   }

@@ -43,18 +43,28 @@ struct MjcfJoint {
 };
 std::vector<MjcfJoint> mjcf_joints(const Scene& scene, int joint, int hanging_body);
 
-// How a coupling is written, between the coordinates of two elements: first = constant + ratio second.
+// A coupling of elements' coordinates: first = constant + the sum of ratio times each other one. Of two it is an
+// equality of joints, of more an equality of a fixed tendon.
 struct MjcfCoupling {
-  std::string first, second;
-  double constant, ratio;
+  struct Term {
+    std::string element;
+    double ratio;
+  };
+  std::string first;
+  std::vector<Term> others;
+  double constant;
+
+  std::string tendon(std::size_t number) const;    // "" where it needs none
+  std::string equality(std::size_t number) const;  // `number`: among all couplings
 };
 // Those of the scene's couplings and screws; `name_of(joint, element)` names an element, and `sign_of(joint)` is -1
 // where an element counts against the scene's coordinate.
 using MjcfElementName = std::function<std::string(int joint, std::size_t element)>;
 std::vector<MjcfCoupling> mjcf_couplings(const Scene& scene, const SpanningTree& tree, const MjcfElementName& name_of,
                                          const std::function<double(int joint)>& sign_of);
-// Whether the scene's joint closes a loop, or is the axis of one that does.
+// Whether the scene's joint closes a loop, or is the axis of one that does; whether a coupling has such a joint.
 bool closes_loop(const Scene& scene, const SpanningTree& tree, int joint);
+bool is_of_a_loop(const Scene& scene, const SpanningTree& tree, const Coupling& coupling);
 // The body that hangs on its parent by this joint or by its compound joint; kWorld if it closes a loop.
 int body_on(const Scene& scene, const SpanningTree& tree, int joint);
 

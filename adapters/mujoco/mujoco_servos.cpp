@@ -18,6 +18,10 @@ void refuse(const Scene& scene, const Motor& motor, const char* what) {
                                   scene.joint_name(static_cast<std::size_t>(motor.joint)), what));
 }
 
+std::string tendon_of(const Scene& scene, const Motor& motor) {
+  return fmt::format("servo{}", &motor - scene.motors.data());
+}
+
 }  // namespace
 
 bool has_native_servos(const Scene& scene, const Settings& settings) {
@@ -37,12 +41,28 @@ std::string mjcf_actuators(const Scene& scene, const std::function<std::string(i
     const std::string range = std::isfinite(servo.most)
                                   ? fmt::format(R"( forcelimited="true" forcerange="{} {}")", -servo.most, servo.most)
                                   : "";
-    rows += fmt::format(
-        "<general joint=\"{}\" gear=\"{}\" gaintype=\"fixed\" gainprm=\"1\" biastype=\"affine\" biasprm=\"0 {} "
-        "{}\"{}/>\n",
-        joint_name(motor.joint), sign_of(motor.joint), -servo.kp, -servo.kd, range);
+    const std::string acts_on =
+        motor.plus.empty() ? fmt::format(R"(joint="{}" gear="{}")", joint_name(motor.joint), sign_of(motor.joint))
+                           : fmt::format(R"(tendon="{}")", tendon_of(scene, motor));
+    rows += fmt::format("<general {} gaintype=\"fixed\" gainprm=\"1\" biastype=\"affine\" biasprm=\"0 {} {}\"{}/>\n",
+                        acts_on, -servo.kp, -servo.kd, range);
   }
   return "<actuator>\n" + rows + "</actuator>\n";
+}
+
+std::string mjcf_servo_tendons(const Scene& scene, const std::function<std::string(int joint)>& joint_name,
+                               const std::function<double(int joint)>& sign_of) {
+  std::string rows;
+  for (const Motor& motor : scene.motors) {
+    if (motor.plus.empty()) continue;
+    const auto term = [&](int joint, double ratio) {
+      return fmt::format(R"(<joint joint="{}" coef="{}"/>)", joint_name(joint), sign_of(joint) * ratio);
+    };
+    std::string joints = term(motor.joint, 1);
+    for (const JointTerm& other : motor.plus) joints += term(other.joint, other.ratio);
+    rows += fmt::format("<fixed name=\"{}\">{}</fixed>\n", tendon_of(scene, motor), joints);
+  }
+  return rows;
 }
 
 std::vector<double> mujoco_controls(const std::vector<Motor>& servos, double t) {

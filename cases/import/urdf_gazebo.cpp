@@ -4,8 +4,27 @@
 #include <vector>
 
 #include "cases/import/model_elements.h"
+#include "cases/import/sdf/sdf_link.h"
 
 namespace rigor {
+
+namespace {
+
+// <mu1>0.5</mu1>, or as older files have it <mu1 value="0.5"/>.
+double friction_of(const XmlElement& element, LeftOut& left_out) {
+  element.check({{"value"}, {}}, left_out);
+  const double friction = element.find_number("value").value_or(0);
+  return not_negative(element.find("value") ? friction : element.number_of_text(), "it", element);
+}
+
+}  // namespace
+
+BodyPose pose_of_urdf_model(const XmlElement& robot, LeftOut& left_out) {
+  for (const XmlElement& element : robot.children("gazebo")) {
+    if (!element.find("reference") && element.child("pose")) return sdf_pose(element.child("pose"), left_out);
+  }
+  return {};
+}
 
 void read_urdf_gazebo(const XmlElement& element, const std::map<std::string, std::size_t>& links, LinkModel& model) {
   const auto name = element.find("reference");
@@ -32,14 +51,16 @@ void read_urdf_gazebo(const XmlElement& element, const std::map<std::string, std
       {"disableFixedJointLumping", kSaysNothing},
       {"selfCollide", assumed("links touch each other, but those of a joint")},
       {"static", lost("would bolt the robot to the world")}};
-  element.check({{"reference"}, {"mu1", "mu2", "mu", "turnGravityOff", "gravity"}, kOthers}, model.left_out);
+  std::vector<std::string> read = {"mu1", "mu2", "mu", "turnGravityOff", "gravity"};
+  if (!name) read.push_back("pose");
+  element.check({{"reference"}, read, kOthers}, model.left_out);
   if (found == links.end()) return;
   Link& link = model.links[found->second];
   const auto first = element.child("mu1"), second = element.child("mu2");
   if (first) {
-    const double friction = not_negative(first->number_of_text(), "it", *first);
+    const double friction = friction_of(*first, model.left_out);
     for (LinkShape& shape : link.shapes) shape.surface.friction = friction;
-    if (second && second->number_of_text() != friction)
+    if (second && friction_of(*second, model.left_out) != friction)
       model.left_out.add(second->place(), "mu2", lost("differs from mu1: in a scene friction has no direction"));
   }
   const auto off = element.child("turnGravityOff"), gravity = element.child("gravity");

@@ -43,6 +43,7 @@ class UrdfReader {
     if (model_.links.empty()) root_.refuse("there is no <link>");
     for (const XmlElement& element : root_.children("joint")) read_joint(element);
     read_mimics();
+    start_ = pose_of_urdf_model(root_, model_.left_out);
     place_links();
     for (const XmlElement& element : root_.children("gazebo")) read_urdf_gazebo(element, links_, model_);
     return std::move(model_);
@@ -109,6 +110,7 @@ class UrdfReader {
     element.check({{"name"},
                    {"origin", "geometry"},
                    {{"verbose", kSaysNothing},
+                    {"group", kSaysNothing},
                     {"material", kIsSeen},
                     {"contact_coefficients", assumed("is not of the format any more")}}},
                   model_.left_out);
@@ -239,11 +241,12 @@ class UrdfReader {
       std::vector<std::string> names;
       for (const LinkJoint& row : rows_) names.push_back(row.joint.name);
       if (found == rows_.end()) mimic->refuse(fmt::format("there is no joint '{}'{}", name, did_you_mean(name, names)));
-      LinkCoupling row{static_cast<int>(k), static_cast<int>(found - rows_.begin())};
-      if (row.joint == row.to) mimic->refuse("the joint mimics itself");
-      row.ratio = mimic->find_number("multiplier").value_or(1), row.offset = mimic->find_number("offset").value_or(0);
-      row.where = mimic->place();
-      model_.couplings.push_back(row);
+      if (found - rows_.begin() == static_cast<std::ptrdiff_t>(k)) mimic->refuse("the joint mimics itself");
+      const double ratio = mimic->find_number("multiplier").value_or(1);
+      model_.couplings.push_back({static_cast<int>(k),
+                                  {{static_cast<int>(found - rows_.begin()), ratio}},
+                                  mimic->find_number("offset").value_or(0),
+                                  mimic->place()});
     }
   }
 
@@ -270,7 +273,7 @@ class UrdfReader {
       waiting.pop_back();
       placed += parent != kWorld;
       for (const std::size_t k : below[parent + 1]) {
-        const BodyPose from = parent == kWorld ? BodyPose() : model_.links[parent].pose;
+        const BodyPose from = parent == kWorld ? start_ : model_.links[parent].pose;
         place(model_.links[held_[k].child], from * held_[k].in_parent, rows_[k]);
         waiting.push_back(held_[k].child);
       }
@@ -286,7 +289,7 @@ class UrdfReader {
   // is free where more than one joint moves against it: it is the base of a vehicle and not the foot of an arm.
   void place_root(std::size_t index, const std::vector<std::vector<std::size_t>>& below) {
     Link& root = model_.links[index];
-    place_at(root, BodyPose());
+    place_at(root, start_);
     const auto [has_mass, joints] = base_of(index, below);
     root.is_static = root.name == "world" || !has_mass || (root.inertial.empty() && joints < 2);
     if (!has_mass || root.name == "world") return;
@@ -340,14 +343,14 @@ class UrdfReader {
       place[k] = static_cast<int>(model_.joints.size());
       model_.joints.push_back(rows_[k]);
     }
-    for (LinkCoupling& row : model_.couplings) row.joint = place[row.joint], row.to = place[row.to];
-    std::erase_if(model_.couplings, [](const LinkCoupling& row) { return row.joint < 0 || row.to < 0; });
+    std::erase_if(model_.couplings, [&](LinkCoupling& row) { return !renumber(row, place); });
   }
 
   const XmlFile& file_;
   bool repairs_;
   XmlElement root_;
   LinkModel model_;
+  BodyPose start_;  // of the model in W
   std::map<std::string, std::size_t> links_;
   std::map<const Link*, bool> reached_;
   std::set<std::string> joints_;

@@ -32,7 +32,10 @@ class SceneNumbers {
     for (const Spring& s : scene.springs)
       add(s.a, s.b, s.point_a, s.point_b, s.stiffness, s.damping, s.rest_length, s.quadratic_stiffness);
     for (const Joint& joint : scene.joints) add_joint(joint);
-    for (const Coupling& coupling : scene.couplings) add(coupling.joint, coupling.to, coupling.ratio, coupling.offset);
+    for (const Coupling& coupling : scene.couplings) {
+      add(coupling.joint, coupling.offset);
+      add_terms(coupling.to);
+    }
     for (const Motor& motor : scene.motors) add_motor(motor);
     add_law(scene.contact_default);
     for (const ContactPair& pair : scene.contact_pairs) add(pair.a, pair.b), add_law(pair.law);
@@ -51,9 +54,14 @@ class SceneNumbers {
     for_each_vector(joint.type, [&](const auto&, const auto&, const Vec3& vector) { add(vector); });
     for_each_number(joint.type, [&](const auto&, double number) { add(number); });
   }
+  void add_terms(const std::vector<JointTerm>& terms) {
+    add(terms.size());
+    for (const JointTerm& term : terms) add(term.joint, term.ratio);
+  }
   void add_motor(const Motor& motor) {
     add(motor.joint, motor.effort, motor.speed, motor.most, motor.from, motor.until, motor.is_friction);
     if (motor.efforts) add(motor.efforts->times, motor.efforts->values, motor.efforts->is_linear);
+    if (!motor.plus.empty()) add_terms(motor.plus);
     if (!motor.servo) return;
     const Servo& servo = *motor.servo;
     add(servo.target.times, servo.target.values, servo.kp, servo.kd, servo.target_speed, servo.most, servo.period);

@@ -62,6 +62,11 @@ double Servo::unbounded(double x, double rate, double t, bool turns) const {
   return kp * error + kd * (target_speed - rate);
 }
 
+bool Motor::drives(int other) const {
+  return joint == other ||
+         std::any_of(plus.begin(), plus.end(), [&](const JointTerm& term) { return term.joint == other; });
+}
+
 double Motor::mean_effort(double t, double dt, std::optional<double> instant) const {
   if (dt == 0) return !acts(t) ? 0 : efforts ? efforts->at(t) : effort;
   const double first = std::max(from, std::min(t, t + dt)), last = std::min(until, std::max(t, t + dt));

@@ -37,8 +37,15 @@ struct Servo {
   double bounded(double effort) const { return effort < -most ? -most : effort > most ? most : effort; }
 };
 
+// A joint's coordinate in a sum of several, times a factor.
+struct JointTerm {
+  int joint = 0;     // of Scene::joints, with a coordinate
+  double ratio = 1;  // rad or m of the sum for each rad or m of the joint
+};
+
 // Acts on a hinge's angle or a slider's displacement while from <= t < until: by a given effort, by the effort that
-// keeps a given speed, or as a servo.
+// keeps a given speed, or as a servo. A servo may act on a sum of coordinates: its joint's, and the terms of `plus`.
+// Its effort on a term's coordinate is `ratio` times that on its joint's. Such a servo is continuous, without a bound.
 struct Motor {
   int joint;                                               // index
   double effort = 0;                                       // N m, N: on b along the axis, the opposite on a
@@ -49,8 +56,10 @@ struct Motor {
   double until = std::numeric_limits<double>::infinity();  // s
   std::optional<Servo> servo = {};
   bool is_friction = false;  // Coulomb friction of the joint: keeps the speed 0 with at most `most`
+  std::vector<JointTerm> plus = {};
 
   bool gives_effort() const { return !speed && !servo; }
+  bool drives(int other) const;  // a joint, alone or in its sum
   bool acts(double t) const { return from <= t && t < until; }
   // The mean effort over the step from t to t + dt, which may go backward; at dt = 0, the effort at t.
   // `instant`: the effort at that time of a step in which next_switch() has nothing, instead of the mean.

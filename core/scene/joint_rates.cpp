@@ -100,13 +100,20 @@ static double initial_coordinate_rate(const Scene& scene, const Joint& joint) {
 }
 
 std::string why_rates_break(const Scene& scene, const Coupling& coupling) {
-  const double rate = initial_coordinate_rate(scene, scene.joints[static_cast<std::size_t>(coupling.joint)]),
-               to = initial_coordinate_rate(scene, scene.joints[static_cast<std::size_t>(coupling.to)]);
-  if (std::abs(rate - coupling.ratio * to) <= kNoRate * (1 + std::abs(rate) + std::abs(coupling.ratio * to))) return "";
-  return fmt::format(
-      "the initial velocities break it: the rates of the two coordinates are {:.6g} and {:.6g}, and the "
-      "ratio is {:.6g}",
-      rate, to, coupling.ratio);
+  const auto rate_of = [&](int joint) {
+    return initial_coordinate_rate(scene, scene.joints[static_cast<std::size_t>(joint)]);
+  };
+  const double rate = rate_of(coupling.joint);
+  double sum = 0, size = std::abs(rate);
+  std::string terms;
+  for (const JointTerm& term : coupling.to) {
+    const double to = rate_of(term.joint);
+    sum += term.ratio * to, size += std::abs(term.ratio * to);
+    terms += fmt::format("{}{:.6g} times {:.6g}", terms.empty() ? "" : " + ", term.ratio, to);
+  }
+  if (std::abs(rate - sum) <= kNoRate * (1 + size)) return "";
+  return fmt::format("the initial velocities break it: its joint's rate is {:.6g}, and the others give {}", rate,
+                     terms);
 }
 
 JointRates initial_rates(const Scene& scene, const Joint& joint) {

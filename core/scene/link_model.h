@@ -52,12 +52,22 @@ struct LinkJoint {
   bool is_loop = false;    // closes a loop beside the tree: its links may touch each other
 };
 
-// coordinate(joint) = ratio * coordinate(to) + offset, both counted from the file's zeros.
+// coordinate(joint) = the sum of the terms + offset, all counted from the file's zeros.
 struct LinkCoupling {
-  int joint, to;  // of LinkModel::joints
-  double ratio = 1, offset = 0;
+  int joint;                  // of LinkModel::joints, as those of the terms
+  std::vector<JointTerm> to;  // at least one
+  double offset = 0;
   std::string where = "";
 };
+
+// Gives a coupling or a motor the new places of its joints, by joint. False if one of them has none (-1).
+inline bool renumber(int& joint, std::vector<JointTerm>& terms, const std::vector<int>& place) {
+  joint = place[static_cast<std::size_t>(joint)];
+  for (JointTerm& term : terms) term.joint = place[static_cast<std::size_t>(term.joint)];
+  return joint >= 0 && std::all_of(terms.begin(), terms.end(), [](const JointTerm& term) { return term.joint >= 0; });
+}
+inline bool renumber(LinkCoupling& row, const std::vector<int>& place) { return renumber(row.joint, row.to, place); }
+inline bool renumber(Motor& motor, const std::vector<int>& place) { return renumber(motor.joint, motor.plus, place); }
 
 struct LinkModel {
   std::string name;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rigor {
 namespace {
 
@@ -30,8 +32,24 @@ std::string Scene::joint_name(std::size_t index) const {
 
 std::string Scene::coupling_name(std::size_t index) const {
   const Coupling& row = couplings[index];
-  return fmt::format("the coupling of {} to {}", joint_name(static_cast<std::size_t>(row.joint)),
-                     joint_name(static_cast<std::size_t>(row.to)));
+  std::string others;
+  for (const JointTerm& term : row.to)
+    others += (others.empty() ? "" : " and ") + joint_name(static_cast<std::size_t>(term.joint));
+  return fmt::format("the coupling of {} to {}", joint_name(static_cast<std::size_t>(row.joint)), others);
+}
+
+bool Coupling::joins(int other) const {
+  return joint == other ||
+         std::any_of(to.begin(), to.end(), [&](const JointTerm& term) { return term.joint == other; });
+}
+
+void renumber_joints(Scene& scene, const std::function<int(int)>& number) {
+  const auto renumber = [&](int& joint, std::vector<JointTerm>& terms) {
+    joint = number(joint);
+    for (JointTerm& term : terms) term.joint = number(term.joint);
+  };
+  for (Motor& motor : scene.motors) renumber(motor.joint, motor.plus);
+  for (Coupling& coupling : scene.couplings) renumber(coupling.joint, coupling.to);
 }
 
 BodyPose Scene::pose(int body) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -80,12 +81,16 @@ struct Joint {
   bool has_limits() const { return std::isfinite(lower) || std::isfinite(upper); }
 };
 
-// coordinate(joint) = ratio coordinate(to) + offset: gears, rack and pinion, mimic joints. Every coordinate is 0 at t =
-// 0, so the offset is 0 within rounding.
+// coordinate(joint) = the sum of the terms + offset: gears, rack and pinion, mimic joints. Every coordinate is 0 at t =
+// 0, so the offset is 0 within rounding. With several terms, hinges have limits less than a turn apart (turn_window.h),
+// and the joints' ends are at most so many bodies.
+inline constexpr std::size_t kMostCoupledEnds = 4;
 struct Coupling {
-  int joint = 0, to = 0;  // of Scene::joints, with a coordinate each
-  double ratio = 1;       // rad or m of `joint` for each rad or m of `to`
-  double offset = 0;      // rad, m
+  int joint = 0;  // of Scene::joints, with a coordinate
+  std::vector<JointTerm> to;
+  double offset = 0;  // rad, m
+
+  bool joins(int other) const;
 };
 
 // Values of a pair of bodies, because engines combine per-body values by different rules.
@@ -149,6 +154,9 @@ struct Scene {
   BodyPose pose(int body) const;                          // at t = 0; of the world, W itself
   double extension_at_start(const Spring& spring) const;  // m: of its length beyond the rest length
 };
+
+// In the rows that name joints: motors and couplings.
+void renumber_joints(Scene& scene, const std::function<int(int)>& number);
 
 // Whether the law of some pair of bodies meets the condition, or that of all other pairs.
 template <typename Condition>

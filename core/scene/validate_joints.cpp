@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "core/scene/joints/axis_series.h"
+#include "core/scene/turn_window.h"
 #include "core/scene/validate.h"
 
 namespace rigor {
@@ -125,13 +127,64 @@ Fault fault_of(const Joint& joint, const Scene& scene) {
   return fault_of_limits(joint);
 }
 
+namespace {
+
+Fault fault_of_coordinate(const char* key, int joint, const Scene& scene) {
+  if (joint < 0 || joint >= static_cast<int>(scene.joints.size()))
+    return SceneFault{key, fmt::format("there is no joint number {}", joint)};
+  if (free_axis(scene.joints[joint])) return {};
+  return SceneFault{key, fmt::format("is a {} joint, which has no coordinate of its own; allowed: a hinge, a slider "
+                                     "or an axis of a compound joint",
+                                     joint_type_name(scene.joints[joint]))};
+}
+
+// Of the joint and the terms, each a joint of its own.
+Fault fault_of_terms(int joint, const char* key, const std::vector<JointTerm>& terms, const Scene& scene) {
+  if (const Fault first = fault_of_coordinate("joint", joint, scene)) return first;
+  std::set<int> seen;
+  for (const JointTerm& term : terms) {
+    if (const Fault coordinate = fault_of_coordinate(key, term.joint, scene)) return coordinate;
+    if (term.joint == joint) return SceneFault{key, "is the same joint; allowed: another one"};
+    if (!seen.insert(term.joint).second)
+      return SceneFault{key, fmt::format("names {} twice; allowed: each joint once",
+                                         scene.joint_name(static_cast<std::size_t>(term.joint)))};
+    if (!std::isfinite(term.ratio) || term.ratio == 0)
+      return SceneFault{"ratio", fmt::format("found {}; allowed: a number other than 0", term.ratio)};
+  }
+  return {};
+}
+
+// A sum of angles is known only where each angle is: between limits less than a turn apart.
+Fault fault_of_angles(int joint, const char* key, const std::vector<JointTerm>& terms, const Scene& scene) {
+  const auto fault = [&](const char* of, int k) -> Fault {
+    const Joint& one = scene.joints[k];
+    if (!turns(one) || middle_of_turn(one)) return {};
+    return SceneFault{of,
+                      fmt::format("{} turns without limits, so its part of the sum is known up to whole turns only; "
+                                  "allowed: lower and upper less than a turn apart",
+                                  scene.joint_name(static_cast<std::size_t>(k)))};
+  };
+  if (const Fault first = fault("joint", joint)) return first;
+  for (const JointTerm& term : terms)
+    if (const Fault other = fault(key, term.joint)) return other;
+  return {};
+}
+
+Fault fault_of_sum(const Motor& motor, const Scene& scene) {
+  if (motor.plus.empty()) return {};
+  if (!motor.servo)
+    return SceneFault{"plus", "is for servos; allowed: kp and target, or a row with an effort for each joint"};
+  if (motor.servo->period > 0)
+    return SceneFault{"period", "a servo on several joints does not sample; allowed: no period"};
+  if (std::isfinite(motor.servo->most))
+    return SceneFault{"most", "a servo on several joints has no bound; allowed: no most"};
+  return fault_of_angles(motor.joint, "plus", motor.plus, scene);
+}
+
+}  // namespace
+
 Fault fault_of(const Motor& motor, const Scene& scene) {
-  if (motor.joint < 0 || motor.joint >= static_cast<int>(scene.joints.size()))
-    return SceneFault{"joint", fmt::format("there is no joint number {}", motor.joint)};
-  if (!free_axis(scene.joints[motor.joint]))
-    return SceneFault{
-        "joint", fmt::format("is a {} joint, which has no coordinate of its own to drive; allowed: a hinge or a slider",
-                             joint_type_name(scene.joints[motor.joint]))};
+  if (const Fault terms = fault_of_terms(motor.joint, "plus", motor.plus, scene)) return terms;
   if (!std::isfinite(motor.effort) || !std::isfinite(motor.speed.value_or(0)))
     return SceneFault{"", "what it drives by is not finite"};
   if (motor.speed && !(motor.most > 0))
@@ -144,6 +197,7 @@ Fault fault_of(const Motor& motor, const Scene& scene) {
   if (motor.servo) {
     if (const Fault servo = fault_of_servo(motor.servo.value())) return servo;
   }
+  if (const Fault sum = fault_of_sum(motor, scene)) return sum;
   for (const Motor& other : scene.motors) {
     const bool overlap =
         &other != &motor && other.joint == motor.joint && other.from < motor.until && motor.from < other.until;
@@ -152,25 +206,32 @@ Fault fault_of(const Motor& motor, const Scene& scene) {
                         other.is_friction || motor.is_friction
                             ? "the joint has friction, and that acts like a motor of speed 0; allowed: one of the two"
                             : "another motor prescribes the speed of the same joint at the same time"};
-    if (overlap && other.servo && motor.servo)
+    if (overlap && other.servo && motor.servo && other.plus.empty() && motor.plus.empty())
       return SceneFault{"kp", "another servo drives the same joint at the same time; allowed: one at a time"};
   }
   return fault_of_times(motor.from, motor.until);
 }
 
+namespace {
+
+// The bodies at the ends of its joints, the world among them.
+std::set<int> ends_of(const Coupling& coupling, const Scene& scene) {
+  std::set<int> ends = {scene.joints[coupling.joint].a, scene.joints[coupling.joint].b};
+  for (const JointTerm& term : coupling.to) ends.insert({scene.joints[term.joint].a, scene.joints[term.joint].b});
+  return ends;
+}
+
+}  // namespace
+
 Fault fault_of(const Coupling& coupling, const Scene& scene) {
-  for (const auto& [key, joint] : {std::pair{"joint", coupling.joint}, {"to", coupling.to}}) {
-    if (joint < 0 || joint >= static_cast<int>(scene.joints.size()))
-      return SceneFault{key, fmt::format("there is no joint number {}", joint)};
-    if (!free_axis(scene.joints[joint]))
-      return SceneFault{key,
-                        fmt::format("is a {} joint, which has no coordinate of its own; allowed: a hinge, a slider "
-                                    "or an axis of a compound joint",
-                                    joint_type_name(scene.joints[joint]))};
+  if (coupling.to.empty()) return SceneFault{"to", "names no joint; allowed: one or several"};
+  if (const Fault terms = fault_of_terms(coupling.joint, "to", coupling.to, scene)) return terms;
+  if (coupling.to.size() > 1) {
+    if (const Fault angles = fault_of_angles(coupling.joint, "to", coupling.to, scene)) return angles;
+    if (const std::size_t count = ends_of(coupling, scene).size(); count > kMostCoupledEnds)
+      return SceneFault{"to", fmt::format("its joints hold {} bodies, the world included; allowed: at most {}", count,
+                                          kMostCoupledEnds)};
   }
-  if (coupling.joint == coupling.to) return SceneFault{"to", "is the same joint; allowed: another one"};
-  if (!std::isfinite(coupling.ratio) || coupling.ratio == 0)
-    return SceneFault{"ratio", fmt::format("found {}; allowed: a number other than 0", coupling.ratio)};
   // Twelve digits written of a start remain.
   constexpr double kClosed = 1e-9;  // rad, m
   if (!(std::abs(coupling.offset) <= kClosed))
@@ -188,14 +249,16 @@ Fault fault_of_circle(const std::vector<Coupling>& couplings, std::size_t last, 
     return joint;
   };
   for (std::size_t k = 0; k <= last; ++k) {
-    const int one = find(couplings[k].joint), other = find(couplings[k].to);
-    if (one == other && k == last)
-      return SceneFault{"to",
-                        fmt::format("{} and {} are coupled already, through other rows; allowed: couplings without "
-                                    "a circle",
-                                    scene.joint_name(static_cast<std::size_t>(couplings[k].joint)),
-                                    scene.joint_name(static_cast<std::size_t>(couplings[k].to)))};
-    root[one] = other;
+    for (const JointTerm& term : couplings[k].to) {
+      const int one = find(couplings[k].joint), other = find(term.joint);
+      if (one == other && k == last)
+        return SceneFault{"to",
+                          fmt::format("{} and {} are coupled already, through other rows; allowed: couplings without "
+                                      "a circle",
+                                      scene.joint_name(static_cast<std::size_t>(couplings[k].joint)),
+                                      scene.joint_name(static_cast<std::size_t>(term.joint)))};
+      root[one] = other;
+    }
   }
   return {};
 }

@@ -129,7 +129,7 @@ CheckResult a_coupling_holds(const Trial& trial) {
   other.name = "other", other.position = {0.5, 2, 0};
   scene.bodies.push_back(other);
   scene.joints.push_back({.a = kWorld, .b = 1, .type = HingeJoint{{0, 2, 0}, Vec3::UnitY()}, .name = "geared"});
-  scene.couplings = {{.joint = 1, .to = 0, .ratio = -0.5}};
+  scene.couplings = {{.joint = 1, .to = {{.joint = 0, .ratio = -0.5}}}};
   if (const std::string why = why_not(trial, scene, kStep); !why.empty()) return not_asked(why);
   TriedWorld world(trial, scene);
   const BodyTable came = world.step(kStep, 96).state();

@@ -170,10 +170,14 @@ class Ablater {
     const auto is_gone = [=](int joint) { return from <= joint && joint < to; };
     const auto moved = [=](int joint) { return joint < to ? joint : joint - (to - from); };
     scene.joints.erase(scene.joints.begin() + from, scene.joints.begin() + to);
-    std::erase_if(scene.motors, [&](const Motor& motor) { return is_gone(motor.joint); });
-    std::erase_if(scene.couplings, [&](const Coupling& row) { return is_gone(row.joint) || is_gone(row.to); });
-    for (Motor& motor : scene.motors) motor.joint = moved(motor.joint);
-    for (Coupling& row : scene.couplings) row.joint = moved(row.joint), row.to = moved(row.to);
+    const auto has_gone = [&](const JointTerm& term) { return is_gone(term.joint); };
+    std::erase_if(scene.motors, [&](const Motor& motor) {
+      return is_gone(motor.joint) || std::any_of(motor.plus.begin(), motor.plus.end(), has_gone);
+    });
+    std::erase_if(scene.couplings, [&](const Coupling& row) {
+      return is_gone(row.joint) || std::any_of(row.to.begin(), row.to.end(), has_gone);
+    });
+    renumber_joints(scene, moved);
   }
 
   // It passes on differences as the constraint of a joint does.

@@ -78,12 +78,12 @@ void shift(TimeTable& table, double t, double value) {
 }
 
 // A servo that samples keeps a start before 0, from which its samples are counted.
-void shift(Motor& motor, const Joint& joint, double t, double x) {
+void shift(Motor& motor, double t, double x) {
   const bool samples = motor.servo && motor.servo->period > 0;
   motor.from = samples ? motor.from - t : std::max(0.0, motor.from - t);
   motor.until -= t;
   if (motor.efforts) shift(*motor.efforts, t, 0);
-  if (motor.servo) shift(motor.servo->target, t, turns(joint) ? std::remainder(x, kWholeTurn) : x);
+  if (motor.servo) shift(motor.servo->target, t, x);
 }
 
 }  // namespace
@@ -129,7 +129,10 @@ Scene rebased(const Scene& scene, const std::vector<BodyState>& bodies, const st
   }
   for (Motor& motor : out.motors) {
     const auto k = static_cast<std::size_t>(motor.joint);
-    shift(motor, scene.joints[k], t, coordinates[k]);
+    double x = coordinates[k];
+    for (const JointTerm& term : motor.plus) x += term.ratio * coordinates[static_cast<std::size_t>(term.joint)];
+    const bool is_angle = motor.plus.empty() && turns(scene.joints[k]);
+    shift(motor, t, is_angle ? std::remainder(x, kWholeTurn) : x);
   }
   std::erase_if(out.motors, [](const Motor& motor) { return motor.until <= 0; });
   for (TimedForce& force : out.forces) force.from = std::max(0.0, force.from - t), force.until -= t;

@@ -57,12 +57,6 @@ void renumber_bodies(Scene& scene, const Renumber& number) {
   for (TimedForce& force : scene.forces) force.body = number(force.body);
 }
 
-// In the rows that name joints.
-void renumber_joints(Scene& scene, const Renumber& number) {
-  for (Motor& motor : scene.motors) motor.joint = number(motor.joint);
-  for (Coupling& coupling : scene.couplings) coupling.joint = number(coupling.joint), coupling.to = number(coupling.to);
-}
-
 template <typename Row>
 void append(std::vector<Row>& to, const std::vector<Row>& rows) {
   to.insert(to.end(), rows.begin(), rows.end());

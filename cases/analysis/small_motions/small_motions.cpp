@@ -126,7 +126,10 @@ ElementRows elements_of(const Scene& scene, const VelocityRows& rows) {
     const auto i = static_cast<std::size_t>(motor.joint);
     // A sampled servo holds its effort for its period, at any dt.
     if (motor.servo && motor.servo->period == 0)
-      add_on_joint(i, fmt::format("the servo of {}", scene.joint_name(i)), motor.servo->kp, motor.servo->kd, true);
+      add_on_joint(i, fmt::format("the servo of {}{}", scene.joint_name(i), motor.plus.empty() ? "" : " and others"),
+                   motor.servo->kp, motor.servo->kd, true);
+    for (const JointTerm& term : motor.plus)
+      found.rows.back() += term.ratio * rows.coordinate_row(scene.joints[static_cast<std::size_t>(term.joint)]);
   }
   return found;
 }

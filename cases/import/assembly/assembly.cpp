@@ -166,9 +166,12 @@ class Assembler {
   }
 
   void add_joints() {
-    for (const Motor& motor : model_.motors) model_.joints[motor.joint].is_driven = true;
-    for (const LinkCoupling& row : model_.couplings)
-      model_.joints[row.joint].is_driven = model_.joints[row.to].is_driven = true;
+    const auto note_driven = [&](int joint, const std::vector<JointTerm>& others) {
+      model_.joints[joint].is_driven = true;
+      for (const JointTerm& term : others) model_.joints[term.joint].is_driven = true;
+    };
+    for (const Motor& motor : model_.motors) note_driven(motor.joint, motor.plus);
+    for (const LinkCoupling& row : model_.couplings) note_driven(row.joint, row.to);
     place_.assign(model_.joints.size(), -1);
     for (std::size_t k = 0; k < model_.joints.size(); ++k) {
       const LinkJoint& row = model_.joints[k];
@@ -180,10 +183,7 @@ class Assembler {
         add_joint(static_cast<int>(k), a, b);
       }
     }
-    for (Motor motor : model_.motors) {
-      motor.joint = place_[motor.joint];
-      if (motor.joint >= 0) scene_.motors.push_back(motor);
-    }
+    for (const Motor& motor : model_.motors) add_motor(motor);
   }
 
   void add_joint(int k, int a, int b) {
@@ -207,14 +207,21 @@ class Assembler {
     add_friction(k);
   }
 
+  void add_motor(Motor motor) {
+    const std::string& where = model_.joints[motor.joint].where;
+    if (!renumber(motor, place_)) return;
+    if (const auto fault = fault_of(motor, scene_); fault && !motor.plus.empty())
+      return model_.left_out.add(where, "a servo on several joints", lost(fault->what));
+    scene_.motors.push_back(motor);
+  }
+
   void add_couplings() {
-    for (const LinkCoupling& row : model_.couplings) {
-      if (place_[row.joint] < 0 || place_[row.to] < 0) {
+    for (LinkCoupling row : model_.couplings) {
+      if (!renumber(row, place_)) {
         model_.left_out.add(row.where, "a coupling", lost("one of its joints has no axis of its own in the scene"));
         continue;
       }
-      Coupling coupling;  // both count from the start, where take_to_start() has closed it
-      coupling.joint = place_[row.joint], coupling.to = place_[row.to], coupling.ratio = row.ratio;
+      const Coupling coupling{row.joint, row.to};  // counts from the start, where take_to_start() has closed it
       scene_.couplings.push_back(coupling);
       const auto fault = fault_of(coupling, scene_);
       const auto circle = fault_of_circle(scene_.couplings, scene_.couplings.size() - 1, scene_);

@@ -97,7 +97,8 @@ void close_couplings(LinkModel& model) {
     changes = false;
     for (const LinkCoupling& row : model.couplings) {
       LinkJoint& joint = model.joints[row.joint];
-      const double start = row.ratio * model.joints[row.to].start + row.offset;
+      double start = row.offset;
+      for (const JointTerm& term : row.to) start += term.ratio * model.joints[term.joint].start;
       if (start == joint.start) continue;
       if (pass == model.couplings.size())
         throw InputError(fmt::format("{}: its couplings contradict each other", row.where));

@@ -148,10 +148,8 @@ class Massless {
       if (!is_gone_[k]) place[k] = static_cast<int>(left.size()), left.push_back(model_.joints[k]);
     }
     model_.joints = std::move(left);
-    std::erase_if(model_.motors, [&](const Motor& motor) { return place[motor.joint] < 0; });
-    for (Motor& motor : model_.motors) motor.joint = place[motor.joint];
-    std::erase_if(model_.couplings, [&](const LinkCoupling& row) { return place[row.joint] < 0 || place[row.to] < 0; });
-    for (LinkCoupling& row : model_.couplings) row.joint = place[row.joint], row.to = place[row.to];
+    std::erase_if(model_.motors, [&](Motor& motor) { return !renumber(motor, place); });
+    std::erase_if(model_.couplings, [&](LinkCoupling& row) { return !renumber(row, place); });
   }
 
   LinkModel& model_;

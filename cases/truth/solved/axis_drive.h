@@ -26,7 +26,8 @@ inline std::size_t clock_numbers(const Scene& scene, std::size_t axes) { return 
 // The servo that acts on a joint at t; null if none does.
 inline const Motor* servo_at(const Scene& scene, std::size_t joint, double t) {
   for (const Motor& motor : scene.motors) {
-    if (motor.servo && static_cast<std::size_t>(motor.joint) == joint && t >= motor.from && t < motor.until)
+    if (motor.servo && motor.plus.empty() && static_cast<std::size_t>(motor.joint) == joint && t >= motor.from &&
+        t < motor.until)
       return &motor;
   }
   return nullptr;

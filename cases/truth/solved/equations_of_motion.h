@@ -157,9 +157,21 @@ class EquationsOfMotion {
     b.force -= force, b.torque -= arm_b.cross(force);
   }
 
+  AxisValue<Real> axis_value(std::size_t k, const State& state, const std::vector<Pose>& poses) const {
+    const JointAxis<Real>& axis = axes_[k];
+    const Joint& joint = scene_.joints[axis.joint];
+    const Pose world;
+    const Pose& a = joint.a == kWorld ? world : poses[joint.a];
+    const Pose& b = joint.b == kWorld ? world : poses[joint.b];
+    const Vector n = a.R * axis.direction_a, apart = b.position - a.position;
+    Real rate = n.dot(b.w - a.w);
+    if (!axis.is_hinge) rate = n.dot(b.velocity - a.velocity) + a.w.cross(n).dot(apart);
+    return {axis.coordinate(a.position, a.R, b.position, b.R, turned(state, k)), rate};
+  }
+
   // Along the free axis n, fixed in a: a hinge's effort rotates b about it, a slider's effort pushes b's centre along
-  // it, and a gets the opposite. Returns the coordinate's rate.
-  Real add_joint_effort(std::size_t k, const AxisDrive<Real>& drive, const State& state,
+  // it, and a gets the opposite. `added`: of servos on sums. Returns the coordinate's rate.
+  Real add_joint_effort(std::size_t k, const AxisDrive<Real>& drive, Real added, const State& state,
                         std::vector<Pose>& poses) const {
     const JointAxis<Real>& axis = axes_[k];
     const Joint& joint = scene_.joints[axis.joint];
@@ -167,10 +179,8 @@ class EquationsOfMotion {
     Pose& a = joint.a == kWorld ? world : poses[joint.a];
     Pose& b = joint.b == kWorld ? world : poses[joint.b];
     const Vector n = a.R * axis.direction_a, apart = b.position - a.position;
-    Real rate = n.dot(b.w - a.w);
-    if (!axis.is_hinge) rate = n.dot(b.velocity - a.velocity) + a.w.cross(n).dot(apart);
-    const Real x = axis.coordinate(a.position, a.R, b.position, b.R, turned(state, k));
-    const Real effort = drive.effort(x, rate, state.data() + clock_place(), k) -
+    const auto [x, rate] = axis_value(k, state, poses);
+    const Real effort = added + drive.effort(x, rate, state.data() + clock_place(), k) -
                         static_cast<Real>(joint.damping) * rate -
                         elastic_effort(joint, Real(x - static_cast<Real>(joint.rest)));
     if (axis.is_hinge) {
@@ -190,8 +200,10 @@ class EquationsOfMotion {
       pose.force += force, pose.torque += timed->torque.template cast<Real>() + arm.cross(force);
     }
     change.resize(state.size());
+    const std::vector<Real> added = acting.efforts_of_sums(state.data() + clock_place(),
+                                                           [&](std::size_t k) { return axis_value(k, state, poses); });
     for (std::size_t k = 0; k < axes_.size(); ++k)
-      change[moving_.size() * kNumbersPerBody + k] = add_joint_effort(k, acting.drives[k], state, poses);
+      change[moving_.size() * kNumbersPerBody + k] = add_joint_effort(k, acting.drives[k], added[k], state, poses);
     std::fill(change.begin() + static_cast<std::ptrdiff_t>(clock_place()), change.end(), Real(0));
     if (clock_place() < change.size()) change[clock_place()] = 1;
     for (const int i : moving_) change_of_body(i, poses[i], &state[slot_[i]], &change[slot_[i]]);

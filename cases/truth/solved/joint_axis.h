@@ -58,11 +58,29 @@ struct JointAxis {
   }
 };
 
+// A servo on a sum of coordinates.
+template <typename Real>
+struct SumServo {
+  struct Term {
+    std::size_t axis;
+    Real ratio;
+  };
+  std::vector<Term> terms;
+  ServoLaw<Real> law;
+};
+
+// A joint's coordinate [rad, m] and its rate.
+template <typename Real>
+struct AxisValue {
+  Real x, rate;
+};
+
 // The timed forces, and the joints' efforts, that act at one instant.
 template <typename Real>
 struct ActingLoads {
   std::vector<const TimedForce*> forces;
   std::vector<AxisDrive<Real>> drives;  // of each axis
+  std::vector<SumServo<Real>> sums;
 
   ActingLoads(const Scene& scene, const std::vector<JointAxis<Real>>& axes, double t, const AxisModes& modes) {
     for (const TimedForce& force : scene.forces) {
@@ -70,6 +88,33 @@ struct ActingLoads {
     }
     for (std::size_t k = 0; k < axes.size(); ++k)
       drives.emplace_back(scene, axes[k].joint, t, modes.empty() ? AxisMode() : modes[k]);
+    for (const Motor& motor : scene.motors) {
+      if (motor.plus.empty() || !(t >= motor.from && t < motor.until)) continue;
+      SumServo<Real>& sum = sums.emplace_back(SumServo<Real>{{}, ServoLaw<Real>(*motor.servo, false, t)});
+      const auto add = [&](int joint, double ratio) {
+        const auto is_its = [&](const JointAxis<Real>& axis) { return axis.joint == static_cast<std::size_t>(joint); };
+        const auto axis = std::find_if(axes.begin(), axes.end(), is_its);
+        sum.terms.push_back({static_cast<std::size_t>(axis - axes.begin()), static_cast<Real>(ratio)});
+      };
+      add(motor.joint, 1);
+      for (const JointTerm& term : motor.plus) add(term.joint, term.ratio);
+    }
+  }
+
+  // By axis: what the servos on sums add to its effort. `value_of(k)` is an AxisValue; `clock` as in AxisDrive.
+  template <typename ValueOf>
+  std::vector<Real> efforts_of_sums(const Real* clock, const ValueOf& value_of) const {
+    std::vector<Real> efforts(drives.size(), Real(0));
+    for (const SumServo<Real>& sum : sums) {
+      AxisValue<Real> of_sum = {0, 0};
+      for (const auto& [axis, ratio] : sum.terms) {
+        const AxisValue<Real> at = value_of(axis);
+        of_sum.x += ratio * at.x, of_sum.rate += ratio * at.rate;
+      }
+      const Real effort = sum.law.effort(of_sum.x, of_sum.rate, clock[0]);
+      for (const auto& [axis, ratio] : sum.terms) efforts[axis] += ratio * effort;
+    }
+    return efforts;
   }
 };
 
@@ -80,10 +125,9 @@ std::vector<JointAxis<Real>> axes_in_use(const Scene& scene) {
   for (std::size_t k = 0; k < scene.joints.size(); ++k) {
     const Joint& joint = scene.joints[k];
     const bool is_driven = std::any_of(scene.motors.begin(), scene.motors.end(),
-                                       [k](const Motor& motor) { return static_cast<std::size_t>(motor.joint) == k; });
-    const bool is_coupled = std::any_of(scene.couplings.begin(), scene.couplings.end(), [k](const Coupling& coupling) {
-      return static_cast<std::size_t>(coupling.joint) == k || static_cast<std::size_t>(coupling.to) == k;
-    });
+                                       [k](const Motor& motor) { return motor.drives(static_cast<int>(k)); });
+    const bool is_coupled = std::any_of(scene.couplings.begin(), scene.couplings.end(),
+                                        [k](const Coupling& coupling) { return coupling.joins(static_cast<int>(k)); });
     if (joint.stiffness != 0 || joint.damping != 0 || joint.armature != 0 || joint.has_limits() || is_driven ||
         is_coupled)
       axes.emplace_back(scene, k);

@@ -228,23 +228,35 @@ class NaturalCoordinates {
       at(timed->body).push(timed->force.template cast<Real>(), timed->point.template cast<Real>());
       at(timed->body).turn(timed->torque.template cast<Real>());
     }
+    const std::vector<Real> added =
+        acting.efforts_of_sums(state.data() + clock_place(), [&](std::size_t k) { return axis_value(k, state, at); });
     for (std::size_t k = 0; k < axes_.size(); ++k)
-      change[kNumbersPerBody * moving_.size() + k] = add_effort(k, acting.drives[k], state, at);
+      change[kNumbersPerBody * moving_.size() + k] = add_effort(k, acting.drives[k], added[k], state, at);
     if (clock_place() == state.size()) return;
     change[clock_place()] = 1;
     for (std::size_t k = 0; k < axes_.size(); ++k) change[clock_place() + 1 + k] = 0;
   }
 
-  // A slider's effort on a acts where b's centre is, as a point of a. Returns the coordinate's rate.
   template <typename At>
-  Real add_effort(std::size_t k, const AxisDrive<Real>& drive, const State& state, const At& at) const {
+  AxisValue<Real> axis_value(std::size_t k, const State& state, const At& at) const {
+    const JointAxis<Real>& axis = axes_[k];
+    const Joint& joint = scene_.joints[axis.joint];
+    const Frame &a = at(joint.a), &b = at(joint.b);
+    const Vector n = a.R * axis.direction_a, there = a.R.transpose() * (b.x - a.x);
+    return {axis.coordinate(a.x, a.R, b.x, b.R, turned(state, k)),
+            axis.is_hinge ? n.dot(b.w() - a.w()) : n.dot(b.dx - a.rate_of(there))};
+  }
+
+  // A slider's effort on a acts where b's centre is, as a point of a. `added`: of servos on sums. Returns the
+  // coordinate's rate.
+  template <typename At>
+  Real add_effort(std::size_t k, const AxisDrive<Real>& drive, Real added, const State& state, const At& at) const {
     const JointAxis<Real>& axis = axes_[k];
     const Joint& joint = scene_.joints[axis.joint];
     Frame &a = at(joint.a), &b = at(joint.b);
     const Vector n = a.R * axis.direction_a, there = a.R.transpose() * (b.x - a.x);
-    const Real rate = axis.is_hinge ? n.dot(b.w() - a.w()) : n.dot(b.dx - a.rate_of(there)),
-               x = axis.coordinate(a.x, a.R, b.x, b.R, turned(state, k)),
-               effort = drive.effort(x, rate, state.data() + clock_place(), k) -
+    const auto [x, rate] = axis_value(k, state, at);
+    const Real effort = added + drive.effort(x, rate, state.data() + clock_place(), k) -
                         elastic_effort(joint, Real(x - static_cast<Real>(joint.rest))) -
                         static_cast<Real>(joint.damping) * rate;
     if (axis.is_hinge) {

@@ -56,7 +56,9 @@ std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
                                   Feature::motor_servo,
                                   Feature::motor_table,
                                   Feature::armature,
-                                  Feature::coupling};
+                                  Feature::coupling,
+                                  Feature::coupling_of_several_joints,
+                                  Feature::motor_servo_of_several_joints};
   for (const Need& need : needs_of(scene)) {
     if (need.feature == joint_feature<CompoundJoint>())
       throw InputError(

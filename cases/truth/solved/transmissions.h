@@ -1,11 +1,13 @@
 // Rows that tie coordinates of joints (joint_axis.h) to each other or to rotors, for any number type and coordinates of
 // bodies:
-//   a coupling   x - ratio y - offset = 0
+//   a coupling   x - sum of ratio y - offset = 0
 //   a screw      way - pitch angle / 2 pi = 0, beside the rows of a cylindrical joint
 //   an armature  I x'' = -l: the row of x'', in which the multiplier l gives way by 1/I
 #pragma once
 
+#include <algorithm>
 #include <boost/math/constants/constants.hpp>
+#include <utility>
 #include <vector>
 
 #include "cases/truth/solved/constraint_rows.h"
@@ -22,9 +24,11 @@ class Transmissions {
       while (axes[k].joint != static_cast<std::size_t>(joint)) ++k;
       return k;
     };
-    for (const Coupling& coupling : scene.couplings)
-      pairs_.push_back({place(coupling.joint), place(coupling.to), static_cast<Real>(coupling.ratio),
-                        static_cast<Real>(coupling.offset)});
+    for (const Coupling& coupling : scene.couplings) {
+      Sum& sum = sums_.emplace_back(Sum{place(coupling.joint), {}, static_cast<Real>(coupling.offset)});
+      for (const JointTerm& term : coupling.to)
+        sum.others.emplace_back(place(term.joint), static_cast<Real>(term.ratio));
+    }
     for (std::size_t k = 0; k < axes.size(); ++k) {
       const double armature = scene.joints[axes[k].joint].armature;
       if (armature > 0) rotors_.push_back({k, 1 / static_cast<Real>(armature)});
@@ -43,13 +47,13 @@ class Transmissions {
   void add_rows(const RowOf& row_of, const RowOfUse& row_of_use, std::vector<Row>& rows) const {
     for (const Thread& thread : threads_) {
       Row row = row_of(thread.way, Real(0));
-      add(-thread.per_radian, row_of(thread.turn, row.gap / thread.per_radian), 0, row);
+      add(-thread.per_radian, row_of(thread.turn, row.gap / thread.per_radian), row);
       rows.push_back(row);
     }
-    for (const Pair& pair : pairs_) {
-      Row row = row_of_use(pair.x);
-      add(-pair.ratio, row_of_use(pair.y), 2, row);
-      row.gap -= pair.offset;
+    for (const Sum& sum : sums_) {
+      Row row = row_of_use(sum.x);
+      for (const auto& [y, ratio] : sum.others) add(-ratio, row_of_use(y), row);
+      row.gap -= sum.offset;
       rows.push_back(row);
     }
     for (const Rotor& rotor : rotors_) {
@@ -60,9 +64,10 @@ class Transmissions {
   }
 
  private:
-  struct Pair {
-    std::size_t x, y;  // of the axes in use
-    Real ratio, offset;
+  struct Sum {
+    std::size_t x;                                     // of the axes in use
+    std::vector<std::pair<std::size_t, Real>> others;  // and their ratios
+    Real offset;
   };
   struct Rotor {
     std::size_t axis;
@@ -73,17 +78,22 @@ class Transmissions {
     Real per_radian;  // m
   };
 
-  // Adds a multiple of another row, whose blocks come to the ends from `first` on.
+  // Adds a multiple of the row of an axis. A body that the sum has already keeps its place.
   template <typename Row>
-  static void add(Real factor, const Row& other, int first, Row& row) {
+  static void add(Real factor, const Row& other, Row& row) {
     for (int k = 0; k < 2; ++k) {
-      row.body[first + k] = other.body[k];
-      row.block[first + k] += factor * other.block[k];
+      if (other.body[k] < 0) continue;
+      int place = static_cast<int>(std::find(row.body, row.body + Row::kEnds, other.body[k]) - row.body);
+      if (place == Row::kEnds) {
+        place = static_cast<int>(std::find(row.body, row.body + Row::kEnds, -1) - row.body);
+        row.body[place] = other.body[k], row.block[place].setZero();
+      }
+      row.block[place] += factor * other.block[k];
     }
     row.gap += factor * other.gap, row.bias += factor * other.bias;
   }
 
-  std::vector<Pair> pairs_;
+  std::vector<Sum> sums_;
   std::vector<Rotor> rotors_;
   std::vector<Thread> threads_;
 };

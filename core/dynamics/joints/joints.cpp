@@ -27,7 +27,7 @@ bool goes_by_its_angle(const Scene& scene, std::size_t k) {
   if (!free_axis(joint) || !turns(joint)) return false;
   return joint.stiffness > 0 ||
          (middle_of_turn(joint) && std::any_of(scene.motors.begin(), scene.motors.end(), [k](const Motor& motor) {
-            return motor.servo && motor.joint == static_cast<int>(k);
+            return motor.servo && motor.drives(static_cast<int>(k));
           }));
 }
 

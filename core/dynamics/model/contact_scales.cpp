@@ -63,7 +63,12 @@ class FastestRate {
   // Turns an effort into a force, and a rate into a speed.
   double arm_of(const Joint& joint) const { return turns(joint) ? L_ : 1; }
   void take_motor(const Motor& motor) {
-    const Joint& joint = scene_.joints[motor.joint];
+    take_drive(motor, motor.joint, 1);
+    for (const JointTerm& term : motor.plus) take_drive(motor, term.joint, std::abs(term.ratio));
+  }
+  // On a joint's coordinate, which counts `ratio` times in what the motor drives.
+  void take_drive(const Motor& motor, int k, double ratio) {
+    const Joint& joint = scene_.joints[k];
     const double arm = arm_of(joint);
     take(std::abs(motor.speed.value_or(0)) * arm / L_);
     const double servo = motor.servo && std::isfinite(motor.servo->most) ? motor.servo->most : 0;
@@ -72,7 +77,7 @@ class FastestRate {
       effort = std::max(effort, std::abs(value));
     for (const int body : {joint.a, joint.b}) {
       take(std::sqrt(effort * per_mass(body) / (arm * L_)));
-      if (motor.servo) take(std::sqrt(motor.servo->kp * per_mass(body)) / arm);
+      if (motor.servo) take(ratio * std::sqrt(motor.servo->kp * per_mass(body)) / arm);
     }
   }
 

@@ -4,13 +4,18 @@
 
 namespace rigor {
 
-CoupledCoordinates::CoupledCoordinates(const Scene& scene, const Coupling& coupling)
-    : x_(scene, scene.joints[static_cast<std::size_t>(coupling.joint)]),
-      y_(scene, scene.joints[static_cast<std::size_t>(coupling.to)]),
-      ratio_(coupling.ratio),
-      offset_(coupling.offset),
-      turns_of_y_follow_(!x_.turns() || (y_.turns() && std::abs(ratio_) < 1)),
-      place_{end(x_.a()), end(x_.b()), end(y_.a()), end(y_.b())} {}
+CoupledCoordinates::CoupledCoordinates(const Scene& scene, const Coupling& coupling) : offset_(coupling.offset) {
+  add(scene, coupling.joint, 1);
+  for (const JointTerm& term : coupling.to) add(scene, term.joint, -term.ratio);
+  const Term &x = terms_[0], &y = terms_[1];
+  turns_of_y_follow_ = !x.coordinate.turns() || (y.coordinate.turns() && std::abs(y.factor) < 1);
+}
+
+void CoupledCoordinates::add(const Scene& scene, int joint, double factor) {
+  JointCoordinate coordinate(scene, scene.joints[static_cast<std::size_t>(joint)]);
+  const int a = end(coordinate.a()), b = end(coordinate.b());
+  terms_.push_back({std::move(coordinate), factor, a, b});
+}
 
 int CoupledCoordinates::end(int body) {
   for (int k = 0; k < count_; ++k)
@@ -20,26 +25,38 @@ int CoupledCoordinates::end(int body) {
 }
 
 CoupledCoordinates::Row CoupledCoordinates::at(BodyColumns state) {
-  const JointCoordinate::Value x = x_.at(state), y = y_.at(state);
-  count_turns(x.x, y.x);
   Row row;
   row.force.fill(Vec3::Zero()), row.torque.fill(Vec3::Zero());
-  row.gap = last_x_ - ratio_ * last_y_ - offset_;
-  row.bias = x.bias - ratio_ * y.bias;
+  row.bias = 0;
   const auto add = [&](int place, double factor, const Vec3& force, const Vec3& torque) {
-    const auto end = static_cast<std::size_t>(place_[place]);
+    const auto end = static_cast<std::size_t>(place);
     row.force[end] += factor * force, row.torque[end] += factor * torque;
   };
-  add(0, 1, -x.force, x.torque_a), add(1, 1, x.force, x.torque_b);
-  add(2, -ratio_, -y.force, y.torque_a), add(3, -ratio_, y.force, y.torque_b);
+  for (Term& term : terms_) {
+    const JointCoordinate::Value at = term.coordinate.at(state);
+    add(term.place_a, term.factor, -at.force, at.torque_a);
+    add(term.place_b, term.factor, at.force, at.torque_b);
+    row.bias += term.factor * at.bias;
+    term.angle = at.x;
+  }
+  count_turns();
+  row.gap = -offset_;
+  for (const Term& term : terms_) row.gap += term.factor * term.x;
   return row;
 }
 
-void CoupledCoordinates::count_turns(double x, double y) {
+void CoupledCoordinates::count_turns() {
+  if (terms_.size() > 2) {
+    for (Term& term : terms_) term.x = term.angle;
+    return;
+  }
+  Term &x = terms_[0], &y = terms_[1];
+  const double ratio = -y.factor;
+  const auto turn = [](Term& term, double near) { term.x = term.coordinate.with_turns(term.angle, near); };
   if (turns_of_y_follow_) {
-    last_x_ = x_.with_turns(x, last_x_), last_y_ = y_.with_turns(y, (last_x_ - offset_) / ratio_);
+    turn(x, x.x), turn(y, (x.x - offset_) / ratio);
   } else {
-    last_y_ = y_.with_turns(y, last_y_), last_x_ = x_.with_turns(x, ratio_ * last_y_ + offset_);
+    turn(y, y.x), turn(x, ratio * y.x + offset_);
   }
 }
 

@@ -66,7 +66,7 @@ const double* WrenchColumns::over_step(BodyColumns state, double t, double dt, s
     bodies_.for_each_share(bodies_.size(), [&](std::size_t first, std::size_t last) { sum_pulls(first, last); });
   }
   bool acts = add_forces(state, t, dt, has_springs) || has_springs;
-  if (!loads_.drives().empty()) add_drives(state, t, dt, instant, acts), acts = true;
+  if (loads_.drives_joints()) add_drives(state, t, dt, instant, acts), acts = true;
   return acts ? wrenches_.data() : nullptr;
 }
 
@@ -108,19 +108,13 @@ bool WrenchColumns::add_forces(BodyColumns state, double t, double dt, bool is_c
 
 void WrenchColumns::add_drives(BodyColumns state, double t, double dt, std::optional<double> instant, bool is_clear) {
   if (!is_clear) std::fill_n(wrenches_.data(), kWrenchColumns * wrenches_.stride(), 0.0);
-  const auto add = [&](int body, double effort, const Vec3& force, const Vec3& torque) {
+  loads_.for_each_drive(state, t, dt, instant, [&](int body, double effort, const Vec3& force, const Vec3& torque) {
     if (body == kWorld) return;
     for (int c = 0; c < 3; ++c) {
       wrenches_.column(kForce + c)[body] += effort * force[c];
       wrenches_.column(kTorque + c)[body] += effort * torque[c];
     }
-  };
-  for (const JointDrive& drive : loads_.drives()) {
-    const JointCoordinate::Value at = drive.coordinate.at(state);
-    const double effort = drive.effort(at, t, dt, instant);
-    add(drive.coordinate.a(), effort, -at.force, at.torque_a);
-    add(drive.coordinate.b(), effort, at.force, at.torque_b);
-  }
+  });
 }
 
 }  // namespace rigor

@@ -17,9 +17,10 @@
 namespace rigor {
 
 enum class Feature : int {
-  armature,          // inertia of a rotor on a joint's axis
-  contact_filter,    // pairs of bodies that never touch
-  coupling,          // two joints' coordinates in a fixed ratio
+  armature,        // inertia of a rotor on a joint's axis
+  contact_filter,  // pairs of bodies that never touch
+  coupling,        // two joints' coordinates in a fixed ratio
+  coupling_of_several_joints,
   fixed_body,        // a fixed body that is no plane
   friction_coulomb,  // a finite coefficient above zero
   friction_infinite,
@@ -37,6 +38,7 @@ enum class Feature : int {
   joints_with_dampers,
   motor_effort,
   motor_servo,
+  motor_servo_of_several_joints,
   motor_speed,
   motor_table,       // an effort that changes in time
   placed_shapes,     // shapes with poses, several of them for one body

@@ -174,13 +174,19 @@ std::vector<Need> needs_of(const Scene& scene) {
     needs.add(Feature::timed_force, fmt::format("a force on '{}'", scene.body_name(scene.forces.front().body)));
   }
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_joint(scene, k, needs);
-  if (!scene.couplings.empty()) needs.add(Feature::coupling, scene.coupling_name(0));
+  for (std::size_t k = 0; k < scene.couplings.size(); ++k) {
+    needs.add(Feature::coupling, scene.coupling_name(k));
+    if (scene.couplings[k].to.size() > 1) needs.add(Feature::coupling_of_several_joints, scene.coupling_name(k));
+  }
   for (const Motor& motor : scene.motors) {
     needs.add(feature_of(motor), fmt::format("{} {}",
                                              motor.is_friction ? "friction in"
                                              : motor.servo     ? "a servo on"
                                                                : "a motor on",
                                              scene.joint_name(static_cast<std::size_t>(motor.joint))));
+    if (!motor.plus.empty())
+      needs.add(Feature::motor_servo_of_several_joints,
+                fmt::format("a servo on {} and others", scene.joint_name(static_cast<std::size_t>(motor.joint))));
   }
   const bool touches = add_contacts(scene, needs);
   if (scene.joints.empty()) return needs.take();

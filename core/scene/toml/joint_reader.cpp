@@ -80,8 +80,9 @@ const Keys& joint_keys() {
 }
 
 const Keys& motor_keys() {
-  static const Keys keys = {"joint",  "torque", "force", "interpolate",  "file",   "column", "speed", "most",
-                            "target", "kp",     "kd",    "target_speed", "period", "from",   "until"};
+  static const Keys keys = {"joint",  "torque", "force",  "interpolate", "file", "column",
+                            "speed",  "most",   "target", "kp",          "kd",   "target_speed",
+                            "period", "from",   "until",  "plus",        "ratio"};
   return keys;
 }
 
@@ -161,11 +162,22 @@ const Keys& coupling_keys() {
   return keys;
 }
 
+// `key` names one joint or several, and `ratio` gives a number for each.
+static std::vector<JointTerm> read_terms(const TableReader& row, const char* key, const Scene& scene) {
+  const std::vector<TomlValue> joints = row.at(key).items(), ratios = row.at("ratio").items();
+  if (joints.size() != ratios.size())
+    row.at("ratio").refuse(fmt::format("found {} for {} {}; allowed: one for each joint of `{}`", ratios.size(),
+                                       joints.size(), joints.size() == 1 ? "joint" : "joints", key));
+  std::vector<JointTerm> terms;
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    terms.push_back({static_cast<int>(find_joint(joints[k], scene)), ratios[k].number()});
+  return terms;
+}
+
 Coupling read_coupling(const TableReader& row, const Scene& scene) {
   Coupling coupling;
   coupling.joint = static_cast<int>(find_joint(row.at("joint"), scene));
-  coupling.to = static_cast<int>(find_joint(row.at("to"), scene));
-  coupling.ratio = row.at("ratio").number();
+  coupling.to = read_terms(row, "to", scene);
   if (const auto offset = row.find("offset")) coupling.offset = offset->number();
   refuse_if(fault_of(coupling, scene), row);
   return coupling;
@@ -232,6 +244,9 @@ Motor read_motor(const TableReader& row, const Scene& scene) {
   const bool is_angle = turns(scene.joints[joint]);
   const std::string effort = is_angle ? "torque" : "force", other = is_angle ? "force" : "torque";
   if (const auto wrong = row.find(other)) wrong->refuse(fmt::format("a {} takes a {}", type, effort));
+  if (row.find("plus")) motor.plus = read_terms(row, "plus", scene);
+  if (const auto ratio = row.find("ratio"); ratio && motor.plus.empty())
+    ratio->refuse("belongs to the joints of `plus`; allowed: plus, too");
   read_drive(row, effort, motor);
   read_times(row, motor.from, motor.until);
   refuse_if(fault_of(motor, scene), row);

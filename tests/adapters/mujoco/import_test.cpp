@@ -168,6 +168,63 @@ BOOST_AUTO_TEST_CASE(a_keyframe_s_control_drives_the_scene_as_it_drives_mujoco) 
   BOOST_TEST(some_has(sentences_of(import_model(path).losses), "actuator 'push': a drive: has control 0"));
 }
 
+// A leg of three hinges with drives that act on sums of its angles, which start away from zero.
+std::string leg_with(const std::string& more) {
+  return R"(<mujoco><compiler angle="radian"/><worldbody>
+  <body name="hip" pos="0 0 2"><joint name="a" axis="0 1 0" range="-2 2" limited="true"/>
+    <inertial pos="0.1 0 -0.3" mass="2" diaginertia="0.05 0.06 0.02"/>
+    <body name="shin" pos="0 0 -0.5"><joint name="b" axis="0 -1 0" range="-2 2" limited="true" damping="0.3"/>
+      <inertial pos="0 0 -0.2" mass="1" diaginertia="0.02 0.02 0.01"/>
+      <body name="foot" pos="0 0 -0.4"><joint name="c" axis="0 1 0" range="-2 2" limited="true"/>
+        <inertial pos="0.1 0 0" mass="0.4" diaginertia="0.003 0.004 0.003"/></body></body></body></worldbody>
+  <tendon><fixed name="lift"><joint joint="a" coef="0.5"/><joint joint="c" coef="-0.25"/></fixed>
+    <fixed name="sum"><joint joint="a" coef="0.4"/><joint joint="b" coef="-0.8"/><joint joint="c" coef="0.2"/></fixed></tendon>)" +
+         more + R"(<keyframe><key name="bent" qpos="0.3 0.2 0.2" ctrl="3"/></keyframe></mujoco>)";
+}
+
+BOOST_AUTO_TEST_CASE(a_servo_over_a_tendon_drives_the_scene_as_it_drives_mujoco) {
+  const Folder folder;
+  const std::string path = folder.write(
+      "leg.xml", leg_with(R"(<actuator><general name="m" tendon="lift" gear="2" gainprm="9" biastype="affine"
+                             biasprm="0.3 -30 -0.7"/></actuator>)"));
+  const Import made = import_model(path, {.keyframe = "bent"});
+  BOOST_TEST(losses_of(made.losses, LossKind::physical).empty());
+  const Scene scene = read_case_text(case_text_of(made), path, path, words()).scene;
+  BOOST_TEST_REQUIRE(scene.motors.size() == 1u);
+  BOOST_TEST_REQUIRE(scene.motors[0].plus.size() == 1u);
+  BOOST_TEST(scene.motors[0].plus[0].ratio == -0.5);
+  BOOST_TEST(scene.motors[0].servo->kp == 30);  // times the square of the gear and the first coefficient
+  for (const char* engine : {"mujoco", "mujoco:euler,servo=native"}) {
+    Own own(path);
+    own.start(0);
+    check_alike(engine, apart_after(own, engine, scene, 1));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_equality_of_a_tendon_couples_all_its_joints) {
+  const std::string equality = R"(<equality><tendon tendon1="sum"/></equality><actuator><motor joint="a"/></actuator>)";
+  const Folder folder;
+  const std::string path = folder.write("leg.xml", leg_with(equality));
+  const Import made = import_model(path, {.keyframe = "bent"});  // 0.4 0.3 - 0.8 0.2 + 0.2 0.2 = 0
+  BOOST_TEST(losses_of(made.losses, LossKind::physical).empty());
+  const Scene scene = read_case_text(case_text_of(made), path, path, words()).scene;
+  BOOST_TEST_REQUIRE(scene.couplings.size() == 1u);
+  const Coupling& row = scene.couplings[0];
+  BOOST_TEST(scene.joints[static_cast<std::size_t>(row.joint)].name == "a");
+  BOOST_TEST_REQUIRE(row.to.size() == 2u);
+  BOOST_TEST((std::abs(row.to[0].ratio - 2) < 1e-15 && std::abs(row.to[1].ratio + 0.5) < 1e-15));
+  const std::string open = leg_with(R"(<equality><tendon tendon1="sum" polycoef="0.1 1 0 0 0"/></equality>
+                                       <actuator><motor joint="a"/></actuator>)");
+  BOOST_CHECK_EXCEPTION(import_model(folder.write("open.xml", open), {.keyframe = "bent"}), InputError,
+                        says("is open by 0.25"));
+}
+
+BOOST_AUTO_TEST_CASE(a_bounded_servo_over_a_tendon_is_a_loss) {
+  const auto lost = physics_lost("leg.xml", leg_with(R"(<actuator><position name="m" tendon="lift" kp="9"
+                                                          forcelimited="true" forcerange="-1 1"/></actuator>)"));
+  BOOST_TEST(some_has(lost, "actuator 'm': a drive: is a servo over a tendon with a bound of its force"));
+}
+
 const std::string kBent = R"(<mujoco><compiler angle="radian" autolimits="false"/><worldbody>
   <body name="upper" pos="0 0 2"><joint name="shoulder" axis="0 1 0" range="-1 2" limited="true" stiffness="3"/>
     <inertial pos="0.1 0 -0.5" mass="2" fullinertia="0.2 0.25 0.1 0.01 0 0"/>

@@ -67,8 +67,18 @@ BOOST_AUTO_TEST_CASE(a_coupling_moves_both_wheels) {
   scene.bodies = {test::body("fast", 1, {1, 1, 0.2}), test::body("slow", 1, {1, 1, 0.7}, {1, 0, 0})};
   scene.joints = {{.a = kWorld, .b = 0, .type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()}},
                   {.a = kWorld, .b = 1, .type = HingeJoint{Vec3(1, 0, 0), Vec3::UnitZ()}, .damping = 1}};
-  scene.couplings = {{.joint = 0, .to = 1, .ratio = 3}};
+  scene.couplings = {{.joint = 0, .to = {{1, 3}}}};
   BOOST_TEST(SmallMotions::of(scene).value().elements()[0].inertia == 0.7 + 9 * 0.2, kRounding);
+}
+
+// s = x - 2 y: a unit of effort on s pushes x by 1/m_x and y by -2/m_y, so s by 1/m_x + 4/m_y.
+BOOST_AUTO_TEST_CASE(a_servo_on_two_sliders_feels_both_masses) {
+  Scene scene;
+  scene.bodies = {test::body("x", 0.5, {1, 1, 1}), test::body("y", 3, {1, 1, 1}, {0, 1, 0})};
+  scene.joints = {{.a = kWorld, .b = 0, .type = SliderJoint{Vec3::UnitX()}},
+                  {.a = kWorld, .b = 1, .type = SliderJoint{Vec3::UnitX()}}};
+  scene.motors = {{.joint = 0, .servo = Servo{.target = TimeTable::constant(1), .kp = 7}, .plus = {{1, -2}}}};
+  BOOST_TEST(SmallMotions::of(scene).value().elements()[0].inertia == 1 / (1 / 0.5 + 4 / 3.0), kRounding);
 }
 
 // A slider and a hinge in series carry a rod: the hinge's damper sees the rod's inertia about the anchor, less what the

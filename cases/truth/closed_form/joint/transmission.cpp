@@ -141,9 +141,10 @@ class TransmissionScene {
     all_.front().ratio = 1;
     for (std::size_t pass = 0; pass < all_.size(); ++pass) {
       for (const Coupling& coupling : scene_.couplings) {
-        Driven &one = all_[static_cast<std::size_t>(coupling.joint)], &to = all_[static_cast<std::size_t>(coupling.to)];
-        if (to.ratio != 0 && one.ratio == 0) one.ratio = Extended(coupling.ratio) * to.ratio;
-        if (one.ratio != 0 && to.ratio == 0) to.ratio = one.ratio / Extended(coupling.ratio);
+        const JointTerm& term = coupling.to.front();  // the only one
+        Driven &one = all_[static_cast<std::size_t>(coupling.joint)], &to = all_[static_cast<std::size_t>(term.joint)];
+        if (to.ratio != 0 && one.ratio == 0) one.ratio = Extended(term.ratio) * to.ratio;
+        if (one.ratio != 0 && to.ratio == 0) to.ratio = one.ratio / Extended(term.ratio);
       }
     }
     if (std::any_of(all_.begin(), all_.end(), [](const Driven& driven) { return driven.ratio == 0; }))

@@ -123,8 +123,10 @@ void scale_joints(Scene& scene, double L, double T) {
     joint.quadratic_stiffness *= moment / (T * T * x);
     joint.rest *= x, joint.lower *= x, joint.upper *= x;
   }
-  for (Coupling& coupling : scene.couplings)
-    coupling.ratio *= unit_of(scene.joints[coupling.joint], L) / unit_of(scene.joints[coupling.to], L);
+  for (Coupling& coupling : scene.couplings) {
+    for (JointTerm& term : coupling.to)
+      term.ratio *= unit_of(scene.joints[coupling.joint], L) / unit_of(scene.joints[term.joint], L);
+  }
   for (Motor& motor : scene.motors) {
     const Joint& joint = scene.joints[motor.joint];
     const double x = unit_of(joint, L), effort = slides(joint) ? L : L * L;

@@ -54,18 +54,41 @@ double JointDrive::effort(const JointCoordinate::Value& at, double t, double dt,
   return sum;
 }
 
+double SumDrive::effort(BodyColumns bodies, double t, double dt, std::optional<double> instant) const {
+  double x = 0, rate = 0;
+  for (const auto& [coordinate, ratio] : terms) {
+    const JointCoordinate::Value at = coordinate.at(bodies);
+    x += ratio * at.x, rate += ratio * at.rate;
+  }
+  return servo.effort(x, rate, t, dt, instant);
+}
+
 Loads::Loads(const Scene& scene)
     : gravity_(scene.gravity), springs_(scene.springs), forces_(scene.forces), schedule_(scene.forces) {
   for (const Body& body : scene.bodies) masses_.push_back(body.fixed ? 0 : body.mass);
   for (std::size_t k = 0; k < scene.joints.size(); ++k) add_drive(scene, k);
+  for (const Motor& motor : scene.motors)
+    if (!motor.plus.empty()) add_sum(scene, motor);
   const auto damps = [](const auto& row) { return row.damping != 0; };
   quadratic_ = std::any_of(springs_.begin(), springs_.end(),
                            [](const Spring& spring) { return spring.quadratic_stiffness != 0; });
   damped_ = std::any_of(springs_.begin(), springs_.end(), damps) ||
-            std::any_of(drives_.begin(), drives_.end(), [&](const JointDrive& drive) {
-              return damps(drive) || std::any_of(drive.servos.begin(), drive.servos.end(),
-                                                 [](const ServoDrive& servo) { return servo.damps(); });
-            });
+            std::any_of(drives_.begin(), drives_.end(),
+                        [&](const JointDrive& drive) {
+                          return damps(drive) || std::any_of(drive.servos.begin(), drive.servos.end(),
+                                                             [](const ServoDrive& servo) { return servo.damps(); });
+                        }) ||
+            std::any_of(sums_.begin(), sums_.end(), [](const SumDrive& sum) { return sum.servo.damps(); });
+}
+
+// Each of its angles is known with its whole turns, so no way round is shorter.
+void Loads::add_sum(const Scene& scene, const Motor& motor) {
+  SumDrive& sum = sums_.emplace_back(SumDrive{{}, ServoDrive(motor, false)});
+  const auto add = [&](int joint, double ratio) {
+    sum.terms.push_back({JointCoordinate(scene, scene.joints[static_cast<std::size_t>(joint)]), ratio});
+  };
+  add(motor.joint, 1);
+  for (const JointTerm& term : motor.plus) add(term.joint, term.ratio);
 }
 
 void Loads::add_drive(const Scene& scene, std::size_t k) {
@@ -74,7 +97,7 @@ void Loads::add_drive(const Scene& scene, std::size_t k) {
   std::vector<ServoDrive> servos;
   bool has_speed = false;
   for (const Motor& motor : scene.motors) {
-    if (motor.joint != static_cast<int>(k)) continue;
+    if (motor.joint != static_cast<int>(k) || !motor.plus.empty()) continue;
     has_speed |= motor.speed.has_value();
     if (motor.servo) servos.emplace_back(motor, takes_the_shorter_way(joint));
     if (motor.gives_effort()) motors.push_back(motor);
@@ -103,12 +126,9 @@ void Loads::evaluate(BodyColumns bodies, double t, double dt, Wrenches& out) con
     add_force(force.body, share * force.force, bodies.rotation(force.body) * force.point, out);
     out[force.body].torque += share * force.torque;
   });
-  for (const JointDrive& drive : drives_) {
-    const JointCoordinate::Value at = drive.coordinate.at(bodies);
-    const double effort = drive.effort(at, t, dt);
-    add_wrench(drive.coordinate.a(), -effort * at.force, effort * at.torque_a, out);
-    add_wrench(drive.coordinate.b(), effort * at.force, effort * at.torque_b, out);
-  }
+  for_each_drive(bodies, t, dt, {}, [&](int body, double effort, const Vec3& force, const Vec3& torque) {
+    add_wrench(body, effort * force, effort * torque, out);
+  });
 }
 
 void Loads::evaluate_with_gravity(BodyColumns bodies, double t, double dt, Wrenches& out) const {
@@ -122,6 +142,7 @@ double Loads::next_switch(double t, double end) const {
     for (const Motor& motor : drive.motors) end = motor.next_switch(t, end);
     for (const ServoDrive& servo : drive.servos) end = servo.next_switch(t, end);
   }
+  for (const SumDrive& sum : sums_) end = sum.servo.next_switch(t, end);
   return end;
 }
 

@@ -49,6 +49,19 @@ struct JointDrive {
   double effort(const JointCoordinate::Value& at, double t, double dt, std::optional<double> instant = {}) const;
 };
 
+// A servo on a sum of joint coordinates.
+struct SumDrive {
+  struct Term {
+    JointCoordinate coordinate;
+    double ratio;
+  };
+  std::vector<Term> terms;
+  ServoDrive servo;
+
+  // On a coordinate of ratio 1, as JointDrive::effort().
+  double effort(BodyColumns bodies, double t, double dt, std::optional<double> instant = {}) const;
+};
+
 class Loads {
  public:
   explicit Loads(const Scene& scene);
@@ -98,8 +111,25 @@ class Loads {
   double next_sample(double t, double end) const;  // the first instant between the two at which a servo samples
   double shortest_period() const;                  // s: of the servos that sample; infinite if there are none
   std::vector<ServoDrive>* servos_of(std::size_t joint);
-  const std::vector<JointDrive>& drives() const { return drives_; }
-  bool empty() const { return springs_.empty() && forces_.empty() && drives_.empty(); }
+  bool drives_joints() const { return !drives_.empty() || !sums_.empty(); }
+  // Calls add(body, effort, force, torque) for both ends of each coordinate that is driven: effort times the force and
+  // torque acts on the body. Arguments as of JointDrive::effort().
+  template <typename Add>
+  void for_each_drive(BodyColumns bodies, double t, double dt, std::optional<double> instant, const Add& add) const {
+    const auto add_ends = [&](const JointCoordinate& coordinate, const JointCoordinate::Value& at, double effort) {
+      add(coordinate.a(), effort, -at.force, at.torque_a);
+      add(coordinate.b(), effort, at.force, at.torque_b);
+    };
+    for (const JointDrive& drive : drives_) {
+      const JointCoordinate::Value at = drive.coordinate.at(bodies);
+      add_ends(drive.coordinate, at, drive.effort(at, t, dt, instant));
+    }
+    for (const SumDrive& sum : sums_) {
+      const double effort = sum.effort(bodies, t, dt, instant);
+      for (const auto& [coordinate, ratio] : sum.terms) add_ends(coordinate, coordinate.at(bodies), ratio * effort);
+    }
+  }
+  bool empty() const { return springs_.empty() && forces_.empty() && !drives_joints(); }
   bool damped() const { return damped_; }
   bool quadratic() const { return quadratic_; }  // whether any spring between points is
   // Of motors that push, and of servos.
@@ -113,6 +143,7 @@ class Loads {
 
  private:
   void add_drive(const Scene& scene, std::size_t joint);
+  void add_sum(const Scene& scene, const Motor& motor);
 
   Vec3 gravity_;
   std::vector<double> masses_;  // kg; 0 for a fixed body
@@ -120,6 +151,7 @@ class Loads {
   std::vector<TimedForce> forces_;
   ForceSchedule schedule_;
   std::vector<JointDrive> drives_;
+  std::vector<SumDrive> sums_;
   bool damped_ = false, quadratic_ = false;
 };
 

@@ -19,7 +19,7 @@ double ServoDrive::effort(double x, double rate, double t, double dt, std::optio
   }
   if (share == 0) return 0;
   if (servo().period > 0) return share * held_;
-  if (!locates_events_) return share * servo().bounded(unbounded(x, rate, t));
+  if (!locates_events_) return share * servo().bounded(unbounded(x, rate, instant.value_or(t)));
   if (side_ != 0) return share * side_ * servo().most;
   return share * unbounded(x, rate, instant.value_or(t + dt / 2));
 }

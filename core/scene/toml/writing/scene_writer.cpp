@@ -116,10 +116,19 @@ Json row_of(const Joint& joint, const Scene& scene) {
   return row;
 }
 
+// One term as it is, several as lists.
+void add_terms(const char* key, const std::vector<JointTerm>& terms, const Scene& scene, Json& row) {
+  const auto name_of = [&](const JointTerm& term) { return scene.joints[static_cast<std::size_t>(term.joint)].name; };
+  if (terms.size() == 1) {
+    row[key] = name_of(terms.front()), row["ratio"] = terms.front().ratio;
+    return;
+  }
+  for (const JointTerm& term : terms) row[key].push_back(name_of(term)), row["ratio"].push_back(term.ratio);
+}
+
 Json row_of(const Coupling& coupling, const Scene& scene) {
-  Json row = {{"joint", scene.joints[static_cast<std::size_t>(coupling.joint)].name},
-              {"to", scene.joints[static_cast<std::size_t>(coupling.to)].name},
-              {"ratio", coupling.ratio}};
+  Json row = {{"joint", scene.joints[static_cast<std::size_t>(coupling.joint)].name}};
+  add_terms("to", coupling.to, scene, row);
   if (coupling.offset != 0) row["offset"] = coupling.offset;
   return row;
 }
@@ -154,6 +163,7 @@ Json row_of(const Motor& motor, const Scene& scene) {
     row["speed"] = *motor.speed, row["most"] = motor.most;
   } else if (motor.servo) {
     add_servo(*motor.servo, row);
+    if (!motor.plus.empty()) add_terms("plus", motor.plus, scene, row);
   } else {
     add_table(turns(joint) ? "torque" : "force", motor.efforts ? *motor.efforts : TimeTable::constant(motor.effort),
               row);

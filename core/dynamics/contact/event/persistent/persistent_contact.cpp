@@ -184,8 +184,7 @@ void PersistentContact::forget_points() {
 // Bodies that rest together under forces that stay as they are go on resting. A spring may have an end that moves.
 // Joints would have to rest, too.
 void PersistentContact::set_resting_aside(BodyColumns state) {
-  if (joints_ || !system_.loads.drives().empty() || !system_.loads.springs().empty() || modes_.are_at_rest(state))
-    return;
+  if (joints_ || system_.loads.drives_joints() || !system_.loads.springs().empty() || modes_.are_at_rest(state)) return;
   std::vector<std::pair<int, int>> pairs;
   for (const PersistentPoint& point : points()) pairs.emplace_back(point.contact.cone.a, point.contact.cone.b);
   std::vector<char> is_aside(pairs.size(), 0);
@@ -265,7 +264,7 @@ double PersistentContact::longest_turn(BodyColumns state) const {
 
 // Timed forces are constant within a part of a step, and so are springs where nothing moves.
 bool PersistentContact::is_at_rest(BodyColumns state) const {
-  return !points().empty() && system_.loads.drives().empty() && modes_.are_at_rest(state);
+  return !points().empty() && !system_.loads.drives_joints() && modes_.are_at_rest(state);
 }
 
 // The distance of the forces from pulling, or from leaving their cones.

@@ -292,7 +292,7 @@ void PersistentForces::copy_wrench(const double* wrench) {
 
 // The joint loads, and the springs, dampers and motors on joints.
 void PersistentForces::note_loads_of_joints(const double* wrench) {
-  const bool are_driven = !system_.loads.drives().empty();
+  const bool are_driven = system_.loads.drives_joints();
   for (std::size_t i = 0; i < system_.size(); ++i) {
     const int body = static_cast<int>(i);
     if (joints_->component_of(body) < 0) continue;

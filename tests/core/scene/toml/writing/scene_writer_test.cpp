@@ -26,10 +26,12 @@ class Fields {
       add(s.stiffness), add(s.damping), add(s.rest_length), add(s.quadratic_stiffness);
     }
     for (const Joint& joint : scene.joints) add(joint);
-    for (const Coupling& c : scene.couplings) add("coupling"), add(c.joint), add(c.to), add(c.ratio), add(c.offset);
+    for (const Coupling& c : scene.couplings) add("coupling"), add(c.joint), add(c.to), add(c.offset);
     for (const Motor& m : scene.motors) {
       add("motor"), add(m.joint), add(m.effort), add(m.speed.has_value()), add(m.speed.value_or(0));
-      add(m.most), add(m.from), add(m.until);
+      add(m.most), add(m.from), add(m.until), add(m.plus);
+      if (!m.servo) continue;
+      add(m.servo->kp), add(m.servo->kd), add(m.servo->target_speed), add(m.servo->most), add(m.servo->period);
     }
     for (const ContactPair& pair : scene.contact_pairs) add("contact"), add(pair.a), add(pair.b), add(pair.law);
     for (const TimedForce& f : scene.forces) {
@@ -44,6 +46,9 @@ class Fields {
   void add(double number) { all_.push_back(std::to_string(std::bit_cast<std::uint64_t>(number))); }
   void add(int number) { all_.push_back(std::to_string(number)); }
   void add(bool flag) { all_.emplace_back(flag ? "yes" : "no"); }
+  void add(const std::vector<JointTerm>& terms) {
+    for (const JointTerm& term : terms) add("term"), add(term.joint), add(term.ratio);
+  }
   void add(const Vec3& v) { add(v.x()), add(v.y()), add(v.z()); }
   void add(const ContactLaw& law) {
     add(law.restitution), add(law.friction), add(law.collides), add(law.rolling_friction), add(law.torsional_friction);
@@ -214,8 +219,8 @@ axes = [
 ]
 [[scene.coupling]]
 joint = "drawer"
-to = "door"
-ratio = -0.05
+to = ["door", "hip x"]
+ratio = [-0.05, 0.3]
 [[scene.motor]]
 joint = "door"
 speed = 0.3
@@ -225,6 +230,14 @@ from = 0.5
 joint = "drawer"
 force = -0.3
 until = 2.5
+[[scene.motor]]
+joint = "drawer"
+plus = ["hip x", "door"]
+ratio = [0.4, -0.2]
+kp = 11
+kd = 0.7
+target = 0.1
+target_speed = 0.6
 [[scene.contact]]
 a = "ground"
 b = "ball"
@@ -250,7 +263,7 @@ BOOST_AUTO_TEST_CASE(every_case_of_the_suite_is_read_back_to_the_bit) {
 BOOST_AUTO_TEST_CASE(nothing_that_a_scene_can_say_is_lost) {
   const TomlFile file = TomlFile::parse(kEverything, "s.toml");
   const Scene scene = read_scene(file.root({"scene"}).at("scene"), InitialVelocities::as_given);
-  BOOST_TEST_REQUIRE(scene.motors.size() == 3u);  // with the friction of the compound joint
+  BOOST_TEST_REQUIRE(scene.motors.size() == 4u);  // with the friction of the compound joint
   const auto fields = Fields(scene).all();
   for (const std::string& text : {scene_toml(scene), inline_table(scene_json(scene))}) {
     const TomlFile again = TomlFile::parse(text, "s.toml");
