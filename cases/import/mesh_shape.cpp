@@ -92,12 +92,18 @@ std::optional<Shape> hull_shape(const std::vector<Vec3>& points, const std::stri
   return Convex{hull};
 }
 
+// "ur_description" of "package://ur_description/meshes/base.stl".
+static std::string package_of(const std::string& path) {
+  const std::size_t scheme = path.find("://"), first = scheme == std::string::npos ? 0 : scheme + 3;
+  return path.substr(first, path.find('/', first) - first);
+}
+
 std::optional<Shape> hull_of_mesh(const std::string& path, const Vec3& scale, const XmlElement& element,
                                   const std::string& model, LeftOut& left_out) {
   const std::optional<std::string> file = file_of_mesh(path, element, model);
   if (!file) {
     left_out.add(element.place(), "a mesh of another package",
-                 lost(fmt::format("'{}' is not found: no folder above the model is this package", path)));
+                 lost(fmt::format("no folder above the model is the package '{}'", package_of(path))));
     return {};
   }
   std::vector<Vec3> points = points_of_file(*file, element);

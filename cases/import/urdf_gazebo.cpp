@@ -1,5 +1,7 @@
 #include "cases/import/urdf_gazebo.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
@@ -13,8 +15,18 @@ namespace {
 // <mu1>0.5</mu1>, or as older files have it <mu1 value="0.5"/>.
 double friction_of(const XmlElement& element, LeftOut& left_out) {
   element.check({{"value"}, {}}, left_out);
-  const double friction = element.find_number("value").value_or(0);
-  return not_negative(element.find("value") ? friction : element.number_of_text(), "it", element);
+  return not_negative(element.find("value") ? element.number("value") : element.number_of_text(), "it", element);
+}
+
+// Likewise.
+bool flag_of(const XmlElement& element, LeftOut& left_out) {
+  element.check({{"value"}, {}}, left_out);
+  const auto value = element.find("value");
+  if (!value) return element.flag_of_text();
+  if (*value == "true" || *value == "1") return true;
+  if (*value != "false" && *value != "0")
+    element.refuse(fmt::format("attribute 'value': found '{}'; allowed: true, false", *value));
+  return false;
 }
 
 }  // namespace
@@ -45,7 +57,9 @@ void read_urdf_gazebo(const XmlElement& element, const std::map<std::string, std
       {"stopKp", kOfASolver},
       {"stopKd", kOfASolver},
       {"implicitSpringDamper", kOfASolver},
+      {"fudgeFactor", kOfASolver},
       {"laserRetro", kSaysNothing},
+      {"canonicalBody", kSaysNothing},
       {"provideFeedback", kSaysNothing},
       {"preserveFixedJoint", kSaysNothing},
       {"disableFixedJointLumping", kSaysNothing},
@@ -53,7 +67,12 @@ void read_urdf_gazebo(const XmlElement& element, const std::map<std::string, std
       {"static", lost("would bolt the robot to the world")}};
   std::vector<std::string> read = {"mu1", "mu2", "mu", "turnGravityOff", "gravity"};
   if (!name) read.push_back("pose");
-  element.check({{"reference"}, read, kOthers}, model.left_out);
+  std::vector<std::pair<std::string, Reason>> others = kOthers;
+  for (const XmlElement& child : element.children()) {  // of Gazebo before 1.0
+    if (child.name().starts_with("controller:")) others.emplace_back(child.name(), kController);
+    if (child.name().starts_with("sensor:")) others.emplace_back(child.name(), kSensor);
+  }
+  element.check({{"reference"}, read, others}, model.left_out);
   if (found == links.end()) return;
   Link& link = model.links[found->second];
   const auto first = element.child("mu1"), second = element.child("mu2");
@@ -64,7 +83,7 @@ void read_urdf_gazebo(const XmlElement& element, const std::map<std::string, std
       model.left_out.add(second->place(), "mu2", lost("differs from mu1: in a scene friction has no direction"));
   }
   const auto off = element.child("turnGravityOff"), gravity = element.child("gravity");
-  if ((off && off->flag_of_text()) || (gravity && !gravity->flag_of_text())) link.lifted = 1;
+  if ((off && flag_of(*off, model.left_out)) || (gravity && !flag_of(*gravity, model.left_out))) link.lifted = 1;
 }
 
 }  // namespace rigor

@@ -1,5 +1,6 @@
 // Gazebo's additions to URDF.
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <string>
 
 #include "tests/cases/import/imported.h"
@@ -57,6 +58,28 @@ BOOST_AUTO_TEST_CASE(friction_is_a_text_or_as_in_older_files_an_attribute) {
              std::string::npos);
   BOOST_TEST(refusal_of("r.urdf", ball_with("<gazebo reference='ball'><mu1 value='-1'/></gazebo>")).find("<mu1>") !=
              std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(gravity_is_switched_off_by_a_text_or_an_attribute) {
+  const auto force = [](const std::string& gazebo) {
+    const Scene scene = scene_of_text("r.urdf", ball_with("<gazebo reference='ball'>" + gazebo + "</gazebo>"));
+    return scene.forces.empty() ? 0 : scene.forces[0].force.z();
+  };
+  const double weight = 2 * 9.81;
+  BOOST_TEST(std::abs(force("<turnGravityOff>true</turnGravityOff>") - weight) < 0.01);
+  BOOST_TEST(force("<turnGravityOff value='true'/>") == force("<turnGravityOff>true</turnGravityOff>"));
+  BOOST_TEST(force("<gravity value='0'/>") == force("<turnGravityOff value='1'/>"));
+  BOOST_TEST(force("<turnGravityOff value='false'/>") == 0);
+  BOOST_TEST(refusal_of("r.urdf", ball_with("<gazebo reference='ball'><turnGravityOff value='yes'/></gazebo>"))
+                 .find("found 'yes'; allowed: true, false") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(controllers_and_sensors_of_old_files_change_nothing_and_bodies_do) {
+  const std::string old =
+      "<gazebo xmlns:controller='http://c' xmlns:sensor='http://s' xmlns:body='http://b'><controller:imu name='i'/>"
+      "<sensor:ray name='s'/><canonicalBody>ball</canonicalBody>";
+  BOOST_TEST(physics_lost("r.urdf", ball_with(old + "</gazebo>")).empty());
+  BOOST_TEST(some_has(physics_lost("r.urdf", ball_with(old + "<body:box name='b'/></gazebo>")), "<body:box>"));
 }
 
 // An old attribute of a collision geometry, of which the format's readers make nothing.
