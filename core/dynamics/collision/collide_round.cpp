@@ -6,12 +6,9 @@
 #include "core/dynamics/collision/narrow_phase.h"
 
 namespace rigor {
-namespace {
 
-// The root t > -min(r²) of sum (r_i p_i / (r_i² + t))² = 1, by Newton's method from the left, where the function is
-// convex and falls. The nearest point of the ellipsoid is r_i² p_i / (r_i² + t).
-double nearest_root(const Vec3& radii, const Vec3& p) {
-  const Vec3 squares = radii.cwiseAbs2(), rp = radii.cwiseProduct(p);
+// By Newton's method from the left, where the function is convex and falls.
+double nearest_root(const Vec3& squares, const Vec3& rp) {
   // At this start the term of each axis alone is at most 1, and that of one axis is 1.
   double t = (rp.cwiseAbs() - squares).maxCoeff();
   constexpr int kMostRounds = 100;
@@ -24,8 +21,6 @@ double nearest_root(const Vec3& radii, const Vec3& p) {
   }
   return t;
 }
-
-}  // namespace
 
 // The lowest point of each rim, and three more of the lower rim, so that a standing cylinder has four.
 void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out) {
@@ -69,7 +64,7 @@ void collide_ellipsoid_plane(const Ellipsoid& a, const Pose& pose_a, const Plane
 void collide_ellipsoid_sphere(const Ellipsoid& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
                               Manifold& out) {
   const Vec3 p = pose_a.R.transpose() * (pose_b.p - pose_a.p), squares = a.radii.cwiseAbs2();
-  const double t = nearest_root(a.radii, p);
+  const double t = nearest_root(squares, a.radii.cwiseProduct(p));
   const Vec3 nearest = squares.cwiseProduct(p).cwiseQuotient((squares.array() + t).matrix());
   Vec3 n = nearest.cwiseQuotient(squares);
   if (!n.allFinite() || n.isZero(0)) {  // on the shortest axis's plane, deep inside

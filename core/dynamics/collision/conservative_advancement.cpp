@@ -6,10 +6,11 @@
 namespace rigor {
 namespace {
 
-// Calls add(centre, radius) for balls whose hull encloses the shape.
+// Calls add(centre, radius) for balls whose hull encloses the shape, as far as it reaches along n.
 template <typename Add>
 struct BallsAround {
   const Add& add;
+  Vec3 n;  // in the shape's frame, of any length
 
   void operator()(const Box& box) const {
     for (int corner = 0; corner < 8; ++corner) {
@@ -22,8 +23,8 @@ struct BallsAround {
   void operator()(const Convex& convex) const {
     for (const Vec3& corner : convex.hull->points) add(corner, 0);
   }
-  void operator()(const Cylinder& cylinder) const { add_ends(cylinder.length, cylinder.radius); }
-  void operator()(const Ellipsoid& ellipsoid) const { add(Vec3::Zero(), ellipsoid.bounding_radius()); }
+  void operator()(const Cylinder& cylinder) const { add(cylinder.support(n), 0); }
+  void operator()(const Ellipsoid& ellipsoid) const { add(ellipsoid.support(n), 0); }
   void operator()(const Plane& plane) const { add(Vec3::Zero(), plane.bounding_radius()); }
   void operator()(const Sphere& sphere) const { add(Vec3::Zero(), sphere.radius); }
   void operator()(const SurfaceShape& on) const {
@@ -63,11 +64,13 @@ struct SupportBound {
   double of_balls(const Shape& shape) const {
     const Mat3 R = state.rotation(body);
     double most = -std::numeric_limits<double>::infinity();
+    // Along this, the point that moves furthest is the one that reaches furthest: n·(w x r) = (n x w)·r.
+    const Vec3 furthest = R.transpose() * (n + t * n.cross(state.angular_velocity(body)));
     for_each_part(shape, [&](const Shape& part, const BodyPose& pose) {
       const auto add = [&](const Vec3& at, double radius) {
         most = std::max(most, point(R * (pose.position + pose.orientation * at)) + radius);
       };
-      std::visit(BallsAround<decltype(add)>{add}, part);
+      std::visit(BallsAround<decltype(add)>{add, pose.orientation.conjugate() * furthest}, part);
     });
     return std::min(most, centre() + bounding_radius);
   }
@@ -90,12 +93,14 @@ struct SupportBound {
 
 }  // namespace
 
+double reach_at_most(const Collider& collider, BodyColumns state, const Vec3& n, const Bend& bend, double t) {
+  return std::visit(SupportBound{state, collider.body, n, bend, collider.bounding_radius, t}, collider.shape);
+}
+
 bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to,
                 const Bend& bend_a, const Bend& bend_b, double h, double missed) {
   const auto is_clear = [&](const SeparatingAxis& at, double t) {
-    const double to_b = std::visit(SupportBound{at.state, a.body, -at.n, bend_a, a.bounding_radius, t}, a.shape);
-    const double to_a = std::visit(SupportBound{at.state, b.body, at.n, bend_b, b.bounding_radius, t}, b.shape);
-    return to_a + to_b <= missed;
+    return reach_at_most(a, at.state, -at.n, bend_a, t) + reach_at_most(b, at.state, at.n, bend_b, t) <= missed;
   };
   return is_clear(from, 0.5 * h) && is_clear(to, -0.5 * h);
 }

@@ -21,6 +21,9 @@ struct Bend {
   double of_centre = 0, of_points = 0;  // m/s²
 };
 
+// m: how far a body reaches along n at most, a time t [s] after the state, or before it if t is negative.
+double reach_at_most(const Collider& collider, BodyColumns state, const Vec3& n, const Bend& bend, double t);
+
 // h: s, from the one to the other. missed: m, the deepest overlap that may be overlooked.
 bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to,
                 const Bend& bend_a, const Bend& bend_b, double h, double missed);

@@ -1,6 +1,7 @@
 #include "cases/truth/solved/events/equivalent_scene.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/scene/turned.h"
 
@@ -47,8 +48,9 @@ struct MirrorJoint {
   }
 };
 
-// The other shapes are their own mirror images.
+// The other shapes are their own mirror images. Surfaces of triangles are not mirrored.
 Shape mirrored_shape(Shape shape) {
+  assert(!surface_in(shape) && "callers do not mirror these scenes");
   if (auto* plane = std::get_if<Plane>(&shape)) plane->normal = mirrored(plane->normal);
   if (auto* convex = std::get_if<Convex>(&shape)) convex->hull = mirrored_hull(*convex->hull);
   if (auto* compound = std::get_if<Compound>(&shape)) {

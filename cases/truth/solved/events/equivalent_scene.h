@@ -9,7 +9,7 @@ namespace rigor {
 
 // Applied in this order.
 struct Equivalence {
-  bool is_mirrored = false;  // x becomes -x
+  bool is_mirrored = false;  // x becomes -x; not with surfaces of triangles
   Quat turn = Quat::Identity();
   bool is_reversed = false;     // the order of the bodies
   double length = 1, time = 1;  // new units: each length and each time is multiplied by these

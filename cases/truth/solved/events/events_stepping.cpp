@@ -1,5 +1,6 @@
 #include "cases/truth/solved/events/events_stepping.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/dynamics/model/contact_scales.h"
@@ -9,8 +10,13 @@ namespace {
 
 constexpr const char* kPatience = "10";  // what a run takes in inelastic steps is found event by event here
 
-Equivalence in_units(Equivalence seen, const OwnUnits& units) {
+// A surface of triangles is not mirrored: the diagonals of a height field's cells would not be those of one.
+Equivalence seen_by(const EventsWay& way, const OwnUnits& units, const Scene& scene) {
+  Equivalence seen = way.seen;
   seen.length = units.length, seen.time = units.time;
+  seen.is_mirrored = seen.is_mirrored && std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
+                       return body.shape && surface_in(*body.shape);
+                     });
   return seen;
 }
 
@@ -22,7 +28,7 @@ OwnUnits own_units(const Scene& scene) {
 }
 
 EventsStepping::EventsStepping(const Scene& scene, const EventsWay& way, const OwnUnits& units)
-    : seen_(in_units(way.seen, units)),
+    : seen_(seen_by(way, units, scene)),
       scene_(equivalent(scene, seen_)),
       system_(scene_),
       integrator_(integrator(way.integrator)) {

@@ -6,13 +6,37 @@
 #include <limits>
 
 #include "core/dynamics/collision/coincident.h"
+#include "core/dynamics/contact/event/features/feature_ends.h"
 
 namespace rigor {
 namespace {
 
 constexpr double kAtOnce = 1e-9;  // units of gaps: more than any gap that counts as closed
+constexpr double kOnAxis = 1e-9;  // of a capsule's radius
 
 Aabb joined(const Aabb& a, const Aabb& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
+
+// Where a capsule crosses an edge and lies nearly flat on a triangle, manifolds have too small a gap. `side`: 1 if
+// normals point to the capsule.
+void sharpen_gaps(const Shape& shape, const Pose& pose, double side, Manifold& points) {
+  for (ManifoldPoint& point : points) {
+    const auto* compound = std::get_if<Compound>(&shape);
+    const std::size_t part = side > 0 ? point.part_a : point.part_b;
+    const auto* capsule = std::get_if<Capsule>(compound ? &compound->parts[part].shape : &shape);
+    if (!capsule) continue;
+    const Pose at = compound ? pose * compound->parts[part].pose : pose;
+    const auto on_axis = [&](const Vec3& p) -> Vec3 {
+      const double half = 0.5 * capsule->length;
+      return at.p + std::clamp(at.R.col(2).dot(p - at.p), -half, half) * at.R.col(2);
+    };
+    const Vec3 n = side * point.normal, foot = point.point - 0.5 * point.gap * n,
+               centre = foot + (point.gap + capsule->radius) * n;
+    if ((on_axis(centre) - centre).norm() < kOnAxis * capsule->radius) continue;
+    const Vec3 line = on_axis(foot) - foot;
+    point.gap = line.norm() - capsule->radius;
+    point.normal = side * line.normalized(), point.point = foot + 0.5 * point.gap * line.normalized();
+  }
+}
 
 }  // namespace
 
@@ -55,7 +79,23 @@ const Manifold& ContactPoints::manifold(BodyColumns state, int a, int b) {
   const Pose pose_of_second = pose_of(state, second.body);
   pose_of_first.p += aside_of(first, pose_of_first.p, second, pose_of_second.p);
   collide(first.shape, pose_of_first, second.shape, pose_of_second, manifold_);
+  if (surface_in(second.shape)) sharpen_gaps(first.shape, pose_of_first, 1, manifold_);
+  if (surface_in(first.shape)) sharpen_gaps(second.shape, pose_of_second, -1, manifold_);
+  if (surface_in(first.shape) || surface_in(second.shape)) sharpen_normals(state, first, second);
   return manifold_;
+}
+
+// Where edges cross over a triangle that lies nearly flat against both, manifolds have the triangle's normal.
+void ContactPoints::sharpen_normals(BodyColumns state, const Collider& a, const Collider& b) {
+  constexpr double kNear = 1e-6;  // units of length: both edges pass through the point
+  for (ManifoldPoint& point : manifold_) {
+    if (!(std::abs(point.gap) < kNear * scales_.length)) continue;
+    const RigidMotion of_a = motion_of(state, a), of_b = motion_of(state, b);
+    const FeaturePair features = features_at(point, a, of_a.pose, b, of_b.pose);
+    if (features.a.kind != ContactFeature::Kind::line || features.b.kind != ContactFeature::Kind::line) continue;
+    const ContactKinematics exact = contact_kinematics(features, of_a, of_b);
+    point.normal = exact.normal, point.point = exact.point, point.gap = exact.gap;
+  }
 }
 
 Vec3 ContactPoints::separating_axis(BodyColumns state, int a, int b) {
@@ -74,7 +114,7 @@ void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int
                          std::vector<ContactPoint>& out) {
   for (const auto& [a, b] : pairs) {
     for (const ManifoldPoint& point : manifold(state, a, b)) {
-      if (!(point.gap <= gap * scales_.gap())) continue;
+      if (!(point.gap <= gap * scales_.gap()) || is_past_end(state, point, a, b)) continue;
       ContactPoint contact{.a = a,
                            .b = b,
                            .feature = point.feature,
@@ -96,6 +136,17 @@ void ContactPoints::find(BodyColumns state, const std::vector<std::pair<int, int
     const ContactPoint limit = limit_at(state, k);
     if (limit.gap <= gap * scales_.gap(limit.cone.is_couple)) out.push_back(limit);
   }
+}
+
+// A corner of a body counts on a triangle a little way past its border, too. There the body's edges have points.
+bool ContactPoints::is_past_end(BodyColumns state, const ManifoldPoint& point, int a, int b) const {
+  const Collider &first = colliders_[a], &second = colliders_[b];
+  if (!surface_in(first.shape) && !surface_in(second.shape)) return false;
+  const RigidMotion of_first = motion_of(state, first), of_second = motion_of(state, second);
+  const FeaturePair features = features_at(point, first, of_first.pose, second, of_second.pose);
+  if (features.a.radius + features.b.radius > 0) return false;
+  return distance_from_ends(features, contact_kinematics(features, of_first, of_second), first, of_first.pose, second,
+                            of_second.pose) < -kAtEnd * scales_.length;
 }
 
 ContactPoint ContactPoints::limit_at(BodyColumns state, std::size_t k) const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/dynamics/collision/broad_phase.h"
-#include "core/dynamics/contact/event/acceleration_bounds.h"
+#include "core/dynamics/contact/event/clearance/acceleration_bounds.h"
 #include "core/dynamics/contact/event/cone_solver.h"
 #include "core/dynamics/joints/joint_limits.h"
 #include "core/dynamics/model/contact_scales.h"
@@ -66,6 +66,8 @@ class ContactPoints {
  private:
   const std::vector<std::pair<int, int>>& overlapping_boxes();
   void place(BodyColumns state, const ManifoldPoint& point, ContactPoint& contact) const;
+  void sharpen_normals(BodyColumns state, const Collider& a, const Collider& b);
+  bool is_past_end(BodyColumns state, const ManifoldPoint& point, int a, int b) const;
   ContactPoint limit_at(BodyColumns state, std::size_t k) const;
 
   ContactScales scales_;

@@ -21,8 +21,8 @@ class CrowdedSteps {
 
   // s, of a step of the run that is dt long.
   double longest(double dt) const;
-  // Steps from t over `rest` or `longest` [s], or less, so that no body moves by more than its inradius. It is never less
-  // than a small part of `longest`, unless the rest is. Returns the length. Some overlap remains to be closed.
+  // Steps from t over `rest` or `longest` [s], or less, so that no body moves by more than its inradius. It is never
+  // less than a small part of `longest`, unless the rest is. Returns the length. Some overlap remains to be closed.
   double take(MutableBodyColumns state, double t, double rest, double longest);
   // The contacts of the last step, and the impulse on the body a of each [N s, in W].
   const std::vector<ContactPoint>& contacts() const { return touching_; }

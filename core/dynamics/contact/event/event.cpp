@@ -22,7 +22,7 @@
 #include <utility>
 
 #include "core/dynamics/contact/contact_method.h"
-#include "core/dynamics/contact/event/clearance.h"
+#include "core/dynamics/contact/event/clearance/clearance.h"
 #include "core/dynamics/contact/event/crowded_steps.h"
 #include "core/dynamics/contact/event/event_forces.h"
 #include "core/dynamics/contact/event/event_options.h"
@@ -410,11 +410,14 @@ extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
-    .features =
+    .features = joined(
         joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
-               {Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite,
-                Feature::friction_none, Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit,
-                Feature::motor_speed, Feature::joint_friction, Feature::static_friction}),
+               joined(contacts_on<Heightfield, Box, Capsule, Convex, Sphere>(),
+                      contacts_on<Mesh, Box, Capsule, Convex, Sphere>())),
+        {contact_feature<Cylinder, Sphere>(), contact_feature<Ellipsoid, Plane>(), contact_feature<Ellipsoid, Sphere>(),
+         Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite,
+         Feature::friction_none, Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit,
+         Feature::motor_speed, Feature::joint_friction, Feature::static_friction}),
     .options = {kRestitutionThresholdOption, kThresholdsOption, kPatienceOption},
     .make = make_contact_stepper<EventStepper>,
 };

@@ -63,8 +63,8 @@ class Impacts {
   double restitution_threshold_;
   Joints* joints_;
   std::vector<ConeConstraint> points_, chosen_;
-  std::vector<std::size_t> places_;  // of the chosen points
-  std::vector<Vec3> impulses_;       // by point
+  std::vector<std::size_t> places_;          // of the chosen points
+  std::vector<Vec3> impulses_;               // by point
   std::optional<std::pair<int, int>> only_;  // the pair that may take part; all if it is empty
   bool watches_ties_ = false;
   std::vector<std::pair<int, int>> tied_;

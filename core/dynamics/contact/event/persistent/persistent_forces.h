@@ -12,8 +12,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/dynamics/contact/event/contact_features.h"
 #include "core/dynamics/contact/event/contact_points.h"
+#include "core/dynamics/contact/event/features/feature_ends.h"
 #include "core/dynamics/contact/event/persistent/force_equations.h"
 #include "core/dynamics/joints/islands.h"
 #include "core/dynamics/model/constraint_forces.h"

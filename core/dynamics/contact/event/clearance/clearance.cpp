@@ -1,8 +1,12 @@
-#include "core/dynamics/contact/event/clearance.h"
+#include "core/dynamics/contact/event/clearance/clearance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/dynamics/contact/event/clearance/ground_gap.h"
+#include "core/dynamics/contact/event/clearance/surface_clearance.h"
+#include "core/dynamics/contact/event/features/surface_features.h"
 
 namespace rigor {
 namespace {
@@ -11,6 +15,7 @@ constexpr double kNothingNear = std::numeric_limits<double>::infinity();
 // In the scene's units of gaps.
 constexpr double kRounding = 1e-14;                      // of the gap of bodies that touched at the start
 constexpr double kMissed = 0.1 * ContactPoint::kClosed;  // an overlap that is overlooked
+constexpr double kAtSurface = 1e-6;                      // above a surface: too near to be seen to stay off it
 
 }  // namespace
 
@@ -26,6 +31,8 @@ bool Clearance::all_stay_apart(const Pairs& pairs, const std::vector<ContactPoin
     const auto is_of_pair = [a = a, b = b](const PersistentPoint& point) {
       return point.contact.a == a && point.contact.b == b;
     };
+    if (surface_of(contact_points_.colliders()[a]) || surface_of(contact_points_.colliders()[b]))
+      return stays_off_surface(a, b, touching, from, to);
     if (std::any_of(persistent_contact_.points().begin(), persistent_contact_.points().end(), is_of_pair)) return true;
     if (stays(a) && stays(b)) return true;
     if (has_just_parted(a, b, touching, to.since - from.since)) return goes_on_to_part(a, b, from, to);
@@ -34,6 +41,45 @@ bool Clearance::all_stay_apart(const Pairs& pairs, const std::vector<ContactPoin
                       {to.state, contact_points_.separating_axis(to.state, a, b)}, bend_of(first), bend_of(second),
                       to.since - from.since, kMissed * contact_points_.scales().gap());
   });
+}
+
+// Where the body touches the surface, or has just parted from it, the other regions are looked at.
+bool Clearance::stays_off_surface(int a, int b, const std::vector<ContactPoint>& touching, const Instant& from,
+                                  const Instant& to) {
+  const bool is_first = surface_of(contact_points_.colliders()[a]) != nullptr;
+  const int body = is_first ? b : a, surface = is_first ? a : b;
+  const Collider &of = contact_points_.colliders()[body], &ground = contact_points_.colliders()[surface];
+  if (stays(body)) return true;
+  const double h = to.since - from.since;
+  touched_.clear(), normals_.clear();
+  for (const PersistentPoint& point : persistent_contact_.points())
+    if (point.contact.a == a && point.contact.b == b) note_touched(point.contact, ground, from.state);
+  if (touched_.empty() && has_just_parted(a, b, touching, h)) {
+    if (!goes_on_to_part(a, b, from, to)) return false;
+    for (const ContactPoint& point : touching)
+      if (point.a == a && point.b == b) note_touched(point, ground, from.state);
+  }
+  const AccelerationBound& bound = bounds_.of(of.body);
+  const SurfaceClearance clearance(
+      of, ground, {from.state, to.state, h, bend_of(of), bound.spin, kMissed * contact_points_.scales().gap()});
+  for (const BodyColumns& state : {from.state, to.state}) note_normals(state, a, b, is_first ? -1 : 1);
+  const bool is_near =
+      !touched_.empty() || gap_above_surface(from.state, a, b) < kAtSurface * contact_points_.scales().gap_unit();
+  return clearance.stays_off(touched_, normals_, is_near);
+}
+
+void Clearance::note_touched(const ContactPoint& contact, const Collider& ground, BodyColumns state) {
+  const Pose pose = pose_of(state, ground.body);
+  const Vec3& arm = contact.cone.a == ground.body ? contact.cone.arm_a : contact.cone.arm_b;
+  find_patches_at(*surface_of(ground), pose.R.transpose() * arm, touched_);
+}
+
+void Clearance::note_normals(BodyColumns state, int a, int b, double side) {
+  for (const ManifoldPoint& point : contact_points_.manifold(state, a, b)) {
+    const Vec3 n = side * point.normal;
+    const auto is_same = [&](const Vec3& other) { return n.dot(other) > 1 - kAligned; };
+    if (std::none_of(normals_.begin(), normals_.end(), is_same)) normals_.push_back(n);
+  }
 }
 
 // Bodies that turn far within the step may come back to each other.
@@ -122,8 +168,19 @@ double Clearance::least_gap(const Pairs& pairs, const std::vector<ContactPoint>&
       });
       if (!is_known) least = std::min(least, (point.gap + drift) / unit);
     }
+    least = std::min(least, gap_above_surface(at.state, a, b) / unit + drift / unit + kMissed);
   }
   return std::min(least, least_gap_of_limits(touching, at));
+}
+
+// m, infinite where neither is a surface of triangles.
+double Clearance::gap_above_surface(BodyColumns state, int a, int b) const {
+  for (const auto& [body, ground] : {std::pair(a, b), {b, a}}) {
+    const Collider &of = contact_points_.colliders()[body], &on = contact_points_.colliders()[ground];
+    if (const TriangleSurface* surface = surface_of(on))
+      return gap_above_ground(of, pose_of(state, of.body), *surface, pose_of(state, on.body));
+  }
+  return kNothingNear;
 }
 
 double Clearance::least_gap_of_limits(const std::vector<ContactPoint>& touching, const Instant& at) const {

@@ -42,14 +42,21 @@ class Clearance {
   };
   bool has_just_parted(int a, int b, const std::vector<ContactPoint>& touching, double h) const;
   bool goes_on_to_part(int a, int b, const Instant& from, const Instant& to);
+  bool stays_off_surface(int a, int b, const std::vector<ContactPoint>& touching, const Instant& from,
+                         const Instant& to);
+  void note_touched(const ContactPoint& contact, const Collider& ground, BodyColumns state);
+  void note_normals(BodyColumns state, int a, int b, double side);
   void note_gaps(BodyColumns state, int a, int b, std::vector<PointGap>& out);
   bool may_have_touched_limit(const Instant& from, const Instant& to) const;
+  double gap_above_surface(BodyColumns state, int a, int b) const;
   double least_gap_of_limits(const std::vector<ContactPoint>& touching, const Instant& at) const;
   bool is_persistent_limit(std::size_t k) const;
   bool stays(int collider) const;
   Bend bend_of(const Collider& collider) const;
 
   std::vector<PointGap> gaps_from_, gaps_to_;
+  std::vector<int> touched_;   // patches of the surface at hand
+  std::vector<Vec3> normals_;  // unit, in W, from that surface
   ContactPoints& contact_points_;
   const PersistentContact& persistent_contact_;
   AccelerationBounds bounds_;

@@ -3,7 +3,8 @@
 // functions of the poses, with rates of change in closed form:
 //   a corner, the centre of a ball or of a capsule's end   a point
 //   an edge, a capsule's axis                              a line
-//   a side of a box, a plane                               a plane
+//   a side of a box, a plane, a triangle                   a plane
+//   an ellipsoid, the rim of a cylinder                    a round surface, whose point follows from its normal
 // A line and a side end. A ball that rolls over the edge of a box, or past the end of a capsule, passes from one
 // feature to the next. Its normal is continuous there, and its acceleration jumps.
 #pragma once
@@ -16,11 +17,15 @@
 namespace rigor {
 
 struct ContactFeature {
-  enum class Kind : std::uint8_t { point, line, plane } kind = Kind::point;
-  Vec3 at = Vec3::Zero();         // m, in B: the point, or one of the line or the plane
+  enum class Kind : std::uint8_t { point, line, plane, round } kind = Kind::point;
+  Vec3 at = Vec3::Zero();         // m, in B: the point, one of the line or the plane, or the round surface's centre
   Vec3 direction = Vec3::Zero();  // unit, in B: along the line, or the plane's outward normal
   double radius = 0;              // m
   bool is_vertex = false;         // the centre of a ball or of a capsule's end, or a corner
+  int place = -1;                 // on a surface of triangles: which triangle, ridge or peak this is
+  // m, in B: of a round surface (round_surface.h). The direction of a rim is the one from its axis to the contact, when
+  // the contact began.
+  Mat3 half_axes = Mat3::Zero();
 };
 
 struct FeaturePair {
@@ -36,21 +41,10 @@ struct RigidMotion {
 // In the frame of the collider's body; a plane's feature is fixed in W.
 RigidMotion motion_of(BodyColumns state, const Collider& collider);
 
-struct ContactKinematics {
-  Vec3 normal = Vec3::UnitX(), point = Vec3::Zero();  // unit, from b to a; m, midway between the surfaces; in W
-  double gap = 0;                                     // m
-  Vec3 normal_rate = Vec3::Zero(), point_rate = Vec3::Zero();  // 1/s, m/s
-};
-
-// The features at a point of a manifold, where the bodies touch.
+// The features at a point of a manifold, where the bodies touch. Those chosen at their end are within kAtEnd of the
+// body's size.
+constexpr double kAtEnd = 1e-11;
 FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
                         const Pose& pose_b);
-ContactKinematics contact_kinematics(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b);
-
-// m: how far the contact can move before it passes to another feature of a body; negative beyond that, infinite if the
-// features do not end. Features chosen at their end are within kAtEnd of the body's size.
-double distance_from_ends(const FeaturePair& features, const ContactKinematics& kinematics, const Collider& a,
-                          const Pose& pose_a, const Collider& b, const Pose& pose_b);
-constexpr double kAtEnd = 1e-11;
 
 }  // namespace rigor

@@ -1,4 +1,4 @@
-#include "core/dynamics/contact/event/acceleration_bounds.h"
+#include "core/dynamics/contact/event/clearance/acceleration_bounds.h"
 
 #include <algorithm>
 #include <cmath>
