@@ -1,8 +1,8 @@
 // Contact points, normals and signed gaps of any two shapes. A gap is exact while the shapes are apart or just touch.
 // Two polyhedra (boxes, hulls) use the separation along the best axis, among the face normals of both and the products
 // of the edges. It equals the distance for every kind of touch, and never exceeds it. Flat and long contacts have
-// several points, each with its own gap. Pairs without an algorithm of their own have one point, by convex_distance.h.
-// A compound has the points of all its parts. On a surface, `part_b` numbers the regions that are touched.
+// several points, each with its own gap. A compound has the points of all its parts. On a surface, `part_b` numbers the
+// regions that are touched.
 #pragma once
 
 #include <array>
