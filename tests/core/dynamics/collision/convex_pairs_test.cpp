@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/dynamics/collision/convex_distance.h"
+#include "cases/metrics/measures/convex_distance.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
 using namespace rigor;
@@ -175,7 +175,8 @@ BOOST_AUTO_TEST_CASE(gaps_are_those_by_support_functions) {
           else if (truth > 0 && both_flat)
             BOOST_TEST((gap > 0 && gap <= truth + 1e-9));
           else if (truth > 0 || !both_flat)
-            BOOST_TEST(std::abs(gap - truth) < 1e-6);
+            // Points of a flat end leave out what is 1e-5 of its width deeper.
+            BOOST_TEST(std::abs(gap - truth) < 1e-5);
           else  // a face axis is taken in place of an edge axis that is up to 1e-5 inradii better
             BOOST_TEST(std::abs(separation_along(nearest_of(points).normal, a, pose_a, b, pose_b) - truth) < 5e-6);
         }
