@@ -21,7 +21,7 @@ const Features kMujocoContacts = [] {
   Features contacts = contacts_among<Box, Capsule, Convex, Cylinder, Ellipsoid, Plane, Sphere>();
   contacts.erase(contact_feature<Box, Convex>());
   contacts.erase(contact_feature<Convex, Convex>());
-  return joined(contacts, contacts_on<Heightfield, Box, Capsule, Sphere>());
+  return joined(contacts, contacts_on<Heightfield, Box, Capsule, Cylinder, Ellipsoid, Sphere>());
 }();
 
 std::vector<std::string> calls_of_mujoco(const Settings& settings, const std::string& dt) {

@@ -103,6 +103,39 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
   }
 }
 
+// Newton on a plane: a cylinder that rolls goes on at its speed, and one that slides on its end stops after v² / (2 µ
+// g). Level triangles are the same ground.
+BOOST_AUTO_TEST_CASE(cylinders_move_on_level_triangles_as_on_a_plane) {
+  const double dt = 1.0 / 1000, g = 9.81, v = 0.8, friction = 0.5;
+  Body rolls = two_kilograms("rolls", Cylinder{0.2, 0.6}, {-0.4, 0.1, 0.2}), slides = rolls;
+  rolls.orientation = rotation_by({0.5 * std::numbers::pi, 0, 0}), rolls.velocity = {v, 0, 0};
+  rolls.angular_velocity = {0, v / 0.2, 0};
+  slides.name = "slides", slides.position.z() = 0.3, slides.velocity = {v, 0, 0};
+  rolls.inertia = slides.inertia = inertia_of(*rolls.shape, 2);
+  Body field = two_kilograms("field", flat_ground(), Vec3::Zero()), mesh = two_kilograms("mesh", slab(), {0, 0, -0.2});
+  field.fixed = mesh.fixed = true;
+  for (const Body& moving : {rolls, slides}) {
+    for (const Body& below : {ground({0, 0, 1}), field, mesh}) {
+      Scene scene;
+      scene.gravity = {0, 0, -g};
+      scene.bodies = {moving, below};
+      scene.contact_default = {0, friction};
+      for (const Run& run : all_runs()) {
+        if (run.settings.track != Track::matched || !run.supports(scene, dt)) continue;
+        BOOST_TEST_CONTEXT(run.name() << " " << moving.name << " on " << below.name) {
+          const auto world = run.load(scene);
+          const Vec3 moved = state_after(*world, dt, 500).columns().position(0) - moving.position;
+          const double way = moving.name == "rolls" ? 0.5 * v : v * v / (2 * friction * g);
+          BOOST_TEST_MESSAGE(run.name() << " " << moving.name << " on " << below.name << ": " << moved.transpose()
+                                        << " of " << way);
+          BOOST_TEST(std::abs(moved.x() - way) < 0.03 * way);
+          BOOST_TEST(std::abs(moved.y()) < 0.01 * way);
+        }
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(each_pair_of_bodies_follows_its_own_law) {
   Scene scene;
   scene.gravity = {0, -9.8, 0};

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/dynamics/collision/convex_distance.h"
+#include "cases/metrics/measures/convex_distance.h"
 #include "core/scene/contact_laws.h"
 
 namespace rigor {

@@ -1,6 +1,6 @@
 // The distance between two bodies' surfaces, from the scene's shapes and a pose alone. It is negative for an overlap,
-// by the shortest way that would part them. Pairs of sphere, box, capsule and plane use the judge's own geometry, which
-// no engine shares. Pairs with a cylinder, an ellipsoid or a hull use convex_distance(), which the core shares.
+// by the shortest way that would part them. No engine shares this geometry, but for surfaces of triangles: there the gap
+// is that of the core's points of contact.
 #pragma once
 
 #include <functional>

@@ -1,43 +1,21 @@
 // Cylinders and ellipsoids with planes and balls.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "core/dynamics/collision/narrow_phase.h"
+#include "core/dynamics/collision/curved/curved_ways.h"
 
 namespace rigor {
 
-// By Newton's method from the left, where the function is convex and falls.
-double nearest_root(const Vec3& squares, const Vec3& rp) {
-  // At this start the term of each axis alone is at most 1, and that of one axis is 1.
-  double t = (rp.cwiseAbs() - squares).maxCoeff();
-  constexpr int kMostRounds = 100;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const Vec3 bottom = squares.array() + t, share = rp.cwiseQuotient(bottom);
-    const double value = share.squaredNorm() - 1, slope = -2 * share.cwiseAbs2().cwiseQuotient(bottom).sum();
-    const double step = -value / slope;
-    if (!(step > 1e-16 * squares.maxCoeff())) break;
-    t += step;
-  }
-  return t;
-}
-
-// The lowest point of each rim, and three more of the lower rim, so that a standing cylinder has four.
+// Points of the lower rim, and of a tilted cylinder the lowest one of the other.
 void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out) {
-  const Vec3 n = pose_a.R.transpose() * b.normal;
-  const double across = std::hypot(n.x(), n.y());
-  // Rounding must not choose the points of a cylinder that stands upright.
-  constexpr double kUpright = 1e-9;
-  const Vec3 down = across > kUpright ? Vec3(-n.x() / across, -n.y() / across, 0) : Vec3(Vec3::UnitX());
-  const Vec3 aside(-down.y(), down.x(), 0);
-  const double base = b.normal.dot(pose_a.p) - b.offset, half = 0.5 * a.length, lower = n.z() < 0 ? half : -half;
-  const auto add = [&](const Vec3& direction, double z, std::uint32_t feature) {
-    const Vec3 local = a.radius * direction + z * Vec3::UnitZ();
-    const double gap = base + n.dot(local);
-    out.add(b.normal, pose_a.p + pose_a.R * local - 0.5 * gap * b.normal, gap, feature + (z > 0 ? 8 : 0));
+  const CurvedSolid cylinder(a, pose_a);
+  const auto add = [&](const Vec3& at, std::uint32_t feature) {
+    const double gap = b.normal.dot(at) - b.offset;
+    out.add(b.normal, at - 0.5 * gap * b.normal, gap, feature);
   };
-  add(down, lower, 0), add(down, -lower, 0);
-  add(aside, lower, 1), add(-aside, lower, 2), add(-down, lower, 3);
+  const Disc end = end_against(cylinder, b.normal);
+  for (const RimPoint& rim : RimPoints(end, b.normal)) add(rim.at, rim.feature);
+  if (!lies_flat(end, b.normal)) add(deepest_line(cylinder, b.normal).to, end.is_top() ? 0 : 8);
 }
 
 void collide_cylinder_sphere(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
@@ -63,16 +41,7 @@ void collide_ellipsoid_plane(const Ellipsoid& a, const Pose& pose_a, const Plane
 
 void collide_ellipsoid_sphere(const Ellipsoid& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
                               Manifold& out) {
-  const Vec3 p = pose_a.R.transpose() * (pose_b.p - pose_a.p), squares = a.radii.cwiseAbs2();
-  const double t = nearest_root(squares, a.radii.cwiseProduct(p));
-  const Vec3 nearest = squares.cwiseProduct(p).cwiseQuotient((squares.array() + t).matrix());
-  Vec3 n = nearest.cwiseQuotient(squares);
-  if (!n.allFinite() || n.isZero(0)) {  // on the shortest axis's plane, deep inside
-    int axis = 0;
-    a.radii.minCoeff(&axis);
-    n = Vec3::Unit(axis);
-  }
-  n.normalize();
+  const Vec3 p = pose_a.R.transpose() * (pose_b.p - pose_a.p), n = out_of_ellipsoid(a.radii, p);
   const double distance = n.dot(p - a.support(n)), gap = distance - b.radius;
   const Vec3 n_W = pose_a.R * n;
   out.add(-n_W, pose_b.p - (b.radius + 0.5 * gap) * n_W, gap, 0);

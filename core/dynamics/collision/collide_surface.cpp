@@ -1,11 +1,7 @@
-// Convex shapes on surfaces of triangles. A ball, a capsule, a box and a hull are points, edges and faces, the first
-// two with a radius around them. A contact is a pair of features whose distance is a local minimum: its normal points
-// out of both features. So a body that slides over the seam of two coplanar triangles meets no edge there.
+// Balls, capsules, boxes and hulls on surfaces of triangles. Each is points, edges and faces, the first two with a
+// radius around them. The pairs of features that touch:
 //
 //   point on a triangle; peak on a face; ridge across an edge; with a radius also point and edge on a ridge or a peak
-//
-// Only ridges and peaks, which stick out, touch by themselves. A feature counts only for bodies whose centre is in
-// front of it: the back of a thin wall is not an overlap.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,16 +9,14 @@
 #include <vector>
 
 #include "core/dynamics/collision/placed_hull.h"
+#include "core/dynamics/collision/surface_contacts.h"
 
 namespace rigor {
 namespace {
 
-constexpr double kOnTriangle = 1e-9;  // of the triangle's size: a point on the seam of two triangles is on one at least
-constexpr double kAcross = 1e-9;      // the sine between lines that cross
-constexpr double kSlop = 0.02;        // of the inradius: of two overlaps that differ by more, the shallower one is real
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
+std::size_t place_in(int i) { return static_cast<std::size_t>(i); }
 
 // A convex shape in the surface's frame.
 struct RoundHull {
@@ -37,30 +31,20 @@ struct RoundHull {
   Vec3 centre;
   const PlacedHull* faces = nullptr;
 
-  Vec3 along(const Edge& edge) const { return points[index_of(edge.to)] - points[index_of(edge.from)]; }
+  Vec3 along(const Edge& edge) const { return points[place_in(edge.to)] - points[place_in(edge.from)]; }
 };
 
-struct Touch {
-  Vec3 normal;  // unit, from the surface to the shape
-  Vec3 foot;    // m, on the surface
-  double gap;   // m
-  std::uint32_t feature;
-  int patch;  // the flat region on which it lies; with a number beyond all of these for a ridge or peak
-};
-
-class OnSurface {
+class OnSurface : SurfaceContacts {
  public:
-  OnSurface(const TriangleSurface& surface, const RoundHull& shape) : surface_(surface), shape_(shape) {}
+  OnSurface(const TriangleSurface& surface, const RoundHull& shape)
+      : SurfaceContacts(surface, shape.inradius), shape_(shape) {}
 
   // Nearest or not, all within `reach` [m].
-  const std::vector<Touch>& find(double reach) {
-    reach_ = reach;
-    touches_.clear(), near_.clear();
+  const std::vector<SurfaceTouch>& find(double reach) {
     Vec3 low = shape_.points.front(), high = low;
     for (const Vec3& point : shape_.points) low = low.cwiseMin(point), high = high.cwiseMax(point);
-    const Vec3 margin = Vec3::Constant(shape_.radius + reach);
-    surface_.find_near(low - margin, high + margin, near_);
-    std::sort(near_.begin(), near_.end());
+    const Vec3 around = Vec3::Constant(shape_.radius);
+    look_around(low - around, high + around, reach);
     for (const int t : near_) points_on(t);
     for (const int t : near_) {
       for (const int peak : surface_.peaks_of[index_of(t)]) on_peak(peak);
@@ -70,49 +54,15 @@ class OnSurface {
   }
 
  private:
-  const Vec3& point(int i) const { return surface_.points[index_of(i)]; }
-  int beyond_patches(int which) const { return static_cast<int>(surface_.triangles.size()) + which; }
-
-  void add(const Vec3& normal, const Vec3& foot, double gap, std::uint32_t feature, int patch) {
-    if (gap > reach_) return;
-    touches_.push_back({normal, foot, gap, feature, patch});
-  }
-
-  bool is_inside(const TriangleSurface::Triangle& triangle, const Vec3& foot) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &from = point(triangle.corners[k]), side = point(triangle.corners[(k + 1) % 3]) - from;
-      if (triangle.normal.dot(side.cross(foot - from)) < -kOnTriangle * side.squaredNorm()) return false;
-    }
-    return true;
-  }
-
   void points_on(int t) {
     const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
-    const Vec3 &n = triangle.normal, &at = point(triangle.corners[0]);
-    if (!(n.dot(shape_.centre - at) > 0)) return;
-    for (std::size_t i = 0; i < shape_.points.size(); ++i) {
-      const double height = n.dot(shape_.points[i] - at), gap = height - shape_.radius;
-      if (gap > reach_) continue;
-      const Vec3 foot = shape_.points[i] - height * n;
-      if (!is_inside(triangle, foot)) continue;
-      // A point a little way into the side of a step is deep below its top, too; one beyond a thin ridge is behind it.
-      if (height < -slop() && -height > nearest_to(shape_.points[i]) + slop()) continue;
-      const auto number = static_cast<std::uint32_t>(i);
-      const std::uint32_t feature = number ^ 0x9E3779B1u * static_cast<std::uint32_t>(triangle.patch);
-      const bool is_known = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& touch) {
-        return touch.feature == feature && touch.patch == triangle.patch;
-      });
-      if (!is_known) add(n, foot, gap, feature, triangle.patch);
-    }
+    if (!(triangle.normal.dot(shape_.centre - point(triangle.corners[0])) > 0)) return;
+    for (std::size_t i = 0; i < shape_.points.size(); ++i)
+      add_point(t, shape_.points[i], shape_.radius, static_cast<std::uint32_t>(i));
   }
 
-  bool points_out_of(const TriangleSurface::Peak& peak, const Vec3& n) const {
-    return std::all_of(peak.edges.begin(), peak.edges.end(), [&](const Vec3& e) { return n.dot(e) <= kNearlyFlat; });
-  }
-  static bool points_out_of(const TriangleSurface::Ridge& ridge, const Vec3& n) {
-    return n.dot(ridge.into_left) <= kNearlyFlat && n.dot(ridge.into_right) <= kNearlyFlat;
-  }
-  bool points_out_of(const RoundHull::Edge& edge, const Vec3& n) const {
+  using SurfaceContacts::points_out_of;
+  static bool points_out_of(const RoundHull::Edge& edge, const Vec3& n) {
     return n.dot(edge.into_left) <= kNearlyFlat && n.dot(edge.into_right) <= kNearlyFlat;
   }
 
@@ -131,14 +81,6 @@ class OnSurface {
       ball_on(q, from + share * along, tag ^ 0x100u, beyond_patches(number),
               [&](const Vec3& n) { return strictly_out_of(peak, n); });
     }
-  }
-
-  // Where a round shape lies on a triangle, its point there says so.
-  static bool strictly_out_of(const TriangleSurface::Peak& peak, const Vec3& n) {
-    return std::all_of(peak.edges.begin(), peak.edges.end(), [&](const Vec3& e) { return n.dot(e) < -kOnTriangle; });
-  }
-  static bool strictly_out_of(const TriangleSurface::Ridge& ridge, const Vec3& n) {
-    return n.dot(ridge.into_left) < -kOnTriangle && n.dot(ridge.into_right) < -kOnTriangle;
   }
 
   template <typename IsOut>
@@ -172,18 +114,6 @@ class OnSurface {
     return true;
   }
 
-  // A face that lies flat on a region belongs to it, with all corners of both.
-  int patch_beside(const TriangleSurface::Peak& peak, const Vec3& n, int number) const {
-    for (const int t : near_) {
-      const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
-      const auto& c = triangle.corners;
-      if (std::find(c.begin(), c.end(), peak.point) != c.end() && triangle.normal.cross(n).norm() < kNearlyFlat &&
-          triangle.normal.dot(n) > 0)
-        return triangle.patch;
-    }
-    return beyond_patches(number);
-  }
-
   void on_ridge(int number) {
     const TriangleSurface::Ridge& ridge = surface_.ridges[index_of(number)];
     const Vec3 &from = point(ridge.from), along = point(ridge.to) - from;
@@ -213,7 +143,7 @@ class OnSurface {
       const double s = (vv * u.dot(line) - uv * v.dot(line)) / both, t = (uv * u.dot(line) - uu * v.dot(line)) / both;
       if (s < 0 || s > 1 || t < 0 || t > 1) continue;
       if (n.dot(start + t * v - from - s * u) < -slop() && is_false_overlap(from + s * u, start + t * v)) continue;
-      add_crossing(ridge, n, from + s * u, start + t * v, feature, own_patch);
+      add_crossing(ridge, n, from + s * u, start + t * v, shape_.radius, feature, own_patch);
     }
   }
 
@@ -233,53 +163,15 @@ class OnSurface {
     return most;
   }
 
-  double slop() const { return kSlop * shape_.inradius; }
-
-  // An edge that lies nearly flat on one of the triangles belongs to its region, and has its normal.
-  void add_crossing(const TriangleSurface::Ridge& ridge, const Vec3& n, const Vec3& foot, const Vec3& own,
-                    std::uint32_t feature, int own_patch) {
-    for (const int t : {ridge.left, ridge.right}) {
-      const TriangleSurface::Triangle& triangle = surface_.triangles[index_of(t)];
-      if (triangle.normal.dot(n) > 0 && triangle.normal.cross(n).norm() < kNearlyFlat)
-        return add(triangle.normal, foot, triangle.normal.dot(own - foot) - shape_.radius, feature, triangle.patch);
-    }
-    add(n, foot, n.dot(own - foot) - shape_.radius, feature, own_patch);
-  }
-
-  // m, from a point to the nearest triangle.
-  double nearest_to(const Vec3& p) const { return (p - surface_.nearest(p, kFar)).norm(); }
-
-  const TriangleSurface& surface_;
   const RoundHull& shape_;
-  double reach_ = 0;
-  std::vector<int> near_;
-  std::vector<Touch> touches_;
 };
-
-// Those of one region stand together, because together they are reduced to a few.
-void add_to(Manifold& out, std::vector<Touch> touches, const Pose& of_surface) {
-  std::stable_sort(touches.begin(), touches.end(), [](const Touch& x, const Touch& y) { return x.gap < y.gap; });
-  if (touches.size() > Manifold::kMost) touches.resize(Manifold::kMost);
-  std::stable_sort(touches.begin(), touches.end(), [](const Touch& x, const Touch& y) { return x.patch < y.patch; });
-  std::uint16_t region = 0;
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    const Touch& touch = touches[i];
-    if (i > 0 && touch.patch != touches[i - 1].patch) ++region;
-    const Vec3 n = of_surface.R * touch.normal;
-    out.add({n, of_surface.p + of_surface.R * touch.foot + 0.5 * touch.gap * n, touch.gap, touch.feature, 0, region});
-  }
-}
 
 // `size`: m, of the shape from its centre.
 void collide_round(const RoundHull& shape, double size, const TriangleSurface& surface, const Pose& of_surface,
                    Manifold& out) {
   if (!surface.nearest(shape.centre, 2 * size).allFinite()) return;  // far away
   OnSurface on(surface, shape);
-  add_to(out, on.find(size), of_surface);
-}
-
-Pose seen_from(const Pose& frame, const Pose& pose) {
-  return {frame.R.transpose() * (pose.p - frame.p), frame.R.transpose() * pose.R};
+  add_touches(out, on.find(size), of_surface);
 }
 
 RoundHull round_hull_of(const PlacedHull& placed) {
@@ -287,8 +179,8 @@ RoundHull round_hull_of(const PlacedHull& placed) {
   shape.points = placed.points, shape.faces = &placed, shape.centre = placed.centre, shape.inradius = placed.inradius;
   for (const Hull::Edge& edge : placed.hull->edges) {
     const Vec3 along = placed.edge(edge).normalized();
-    shape.edges.push_back({edge.from, edge.to, placed.normals[index_of(edge.left)].cross(along),
-                           along.cross(placed.normals[index_of(edge.right)])});
+    shape.edges.push_back({edge.from, edge.to, placed.normals[place_in(edge.left)].cross(along),
+                           along.cross(placed.normals[place_in(edge.right)])});
   }
   return shape;
 }
@@ -305,6 +197,21 @@ void collide_polyhedron(const Polyhedron& a, const Pose& pose_a, const TriangleS
 }
 
 }  // namespace
+
+void add_touches(Manifold& out, std::vector<SurfaceTouch> touches, const Pose& of_surface) {
+  std::stable_sort(touches.begin(), touches.end(),
+                   [](const SurfaceTouch& x, const SurfaceTouch& y) { return x.gap < y.gap; });
+  if (touches.size() > Manifold::kMost) touches.resize(Manifold::kMost);
+  std::stable_sort(touches.begin(), touches.end(),
+                   [](const SurfaceTouch& x, const SurfaceTouch& y) { return x.patch < y.patch; });
+  std::uint16_t region = 0;
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    const SurfaceTouch& touch = touches[i];
+    if (i > 0 && touch.patch != touches[i - 1].patch) ++region;
+    const Vec3 n = of_surface.R * touch.normal;
+    out.add({n, of_surface.p + of_surface.R * touch.foot + 0.5 * touch.gap * n, touch.gap, touch.feature, 0, region});
+  }
+}
 
 void collide_surface(const Box& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out) {
   collide_polyhedron(a, pose_a, b, pose_b, out);

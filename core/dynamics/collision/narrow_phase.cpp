@@ -1,11 +1,10 @@
 #include "core/dynamics/collision/narrow_phase.h"
 
 #include <algorithm>
-#include <cassert>
 #include <type_traits>
 #include <utility>
 
-#include "core/dynamics/collision/convex_distance.h"
+#include "core/dynamics/collision/curved/collide_curved.h"
 #include "core/dynamics/collision/side_by_side.h"
 
 namespace rigor {
@@ -35,7 +34,12 @@ RoundLine line_of(const Capsule& capsule, const Pose& pose) {
   return {pose.p, axis_of(pose), 0.5 * capsule.length, capsule.radius};
 }
 
-// The pairs with an algorithm of their own, in alphabetical order; the normal points from the second to the first.
+template <typename Type>
+constexpr bool kIsCurved = std::is_same_v<Type, Cylinder> || std::is_same_v<Type, Ellipsoid>;
+template <typename Type>
+constexpr bool kIsPolyhedron = std::is_same_v<Type, Box> || std::is_same_v<Type, Convex>;
+
+// Each pair in one order of its shapes; the normal points from the second to the first.
 struct Exact {
   const Pose& a;
   const Pose& b;
@@ -118,6 +122,23 @@ struct Exact {
     collide_ellipsoid_sphere(ellipsoid, a, sphere, b, out);
   }
 
+  template <typename Curved, typename Hull>
+  requires(kIsCurved<Curved>&& kIsPolyhedron<Hull>) void operator()(const Curved& curved, const Hull& hull) const {
+    collide_curved(CurvedSolid(curved, a), hull, b, out);
+  }
+  template <typename Curved>
+  requires(kIsCurved<Curved>) void operator()(const Capsule& capsule, const Curved& curved) const {
+    collide_curved(capsule, a, CurvedSolid(curved, b), out);
+  }
+  template <typename Curved, typename Other>
+  requires(kIsCurved<Curved>&& kIsCurved<Other>) void operator()(const Curved& curved, const Other& other) const {
+    collide_curved(CurvedSolid(curved, a), CurvedSolid(other, b), out);
+  }
+  template <typename Curved>
+  requires(kIsCurved<Curved>) void operator()(const Curved& curved, const SurfaceShape& on) const {
+    collide_curved(CurvedSolid(curved, a), *on.surface, b, out);
+  }
+
   template <typename Convexes>
   requires requires(const Convexes& it, const TriangleSurface& on, const Pose& at, Manifold& m) {
     collide_surface(it, at, on, at, m);
@@ -152,11 +173,8 @@ struct Collide {
     } else if constexpr (kIsExact<B, A>) {
       Exact{b, a, out}(second, first);
       reverse(out);
-    } else if constexpr (kStandsStill<A> || kStandsStill<B>) {
-      assert((kStandsStill<A> && kStandsStill<B>)&&"no method has this pair");  // or they never meet
     } else {
-      const ConvexGap gap = convex_distance(of_a, a, of_b, b);
-      out.add(gap.normal, gap.point, gap.gap, 0);
+      static_assert(kStandsStill<A> && kStandsStill<B>);  // these never meet
     }
   }
 

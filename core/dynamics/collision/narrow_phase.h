@@ -1,8 +1,8 @@
 // Contact points, normals and signed gaps of any two shapes. A gap is exact while the shapes are apart or just touch.
 // Two polyhedra (boxes, hulls) use the separation along the best axis, among the face normals of both and the products
 // of the edges. It equals the distance for every kind of touch, and never exceeds it. Flat and long contacts have
-// several points, each with its own gap. Pairs without an algorithm of their own have one point, by convex_distance.h.
-// A compound has the points of all its parts. On a surface, `part_b` numbers the regions that are touched.
+// several points, each with its own gap. A compound has the points of all its parts. On a surface, `part_b` numbers the
+// regions that are touched.
 #pragma once
 
 #include <array>
@@ -73,9 +73,6 @@ void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b,
 void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out);
 void collide_cylinder_sphere(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out);
 void collide_ellipsoid_plane(const Ellipsoid& a, const Pose& pose_a, const Plane& b, Manifold& out);
-// For the point of an ellipsoid that is nearest to p: the root t > -min(r²) of sum (r_i p_i / (r_i² + t))² = 1, of the
-// squares r_i² and the products r_i p_i. The nearest point is r_i² p_i / (r_i² + t).
-double nearest_root(const Vec3& squares, const Vec3& products);
 // Shapes on a surface: the points with a gap of at most the shape's size, which is that from its centre to its end.
 void collide_surface(const Box& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);
 void collide_surface(const Capsule& a, const Pose& pose_a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);

@@ -14,7 +14,12 @@ const Hull& unit_cube_hull() {
 
 }  // namespace
 
-void PlacedHull::place(const Box& box, const Pose& pose) { place(unit_cube_hull(), box.size, box.inradius(), pose); }
+// The axes of a box may be mirrored, to number its corners as a mirror does. Corners of faces must run anticlockwise.
+void PlacedHull::place(const Box& box, const Pose& pose) {
+  Pose proper = pose;
+  if (pose.R.determinant() < 0) proper.R.col(0) *= -1;
+  place(unit_cube_hull(), box.size, box.inradius(), proper);
+}
 
 void PlacedHull::place(const Hull& of, const Vec3& stretch, double its_inradius, const Pose& pose) {
   hull = &of, inradius = its_inradius;

@@ -316,15 +316,14 @@ extern const ContactMethod kImpulseContact;
 const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
-    .features = joined(
-        joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
-               joined(contacts_on<Heightfield, Box, Capsule, Convex, Sphere>(),
-                      contacts_on<Mesh, Box, Capsule, Convex, Sphere>())),
-        {contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>(), contact_feature<Ellipsoid, Plane>(),
-         contact_feature<Ellipsoid, Sphere>(), Feature::placed_shapes, Feature::contact_filter,
-         Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none, Feature::restitution,
-         Feature::rolling_friction, Feature::torsional_friction, Feature::joints_with_contacts, Feature::joint_limit,
-         Feature::joint_limit_of_compound_slider, Feature::motor_speed, Feature::joint_friction}),
+    .features =
+        joined(joined(contacts_among<Box, Capsule, Convex, Cylinder, Ellipsoid, Plane, Sphere>(),
+                      joined(contacts_on<Heightfield, Box, Capsule, Convex, Cylinder, Ellipsoid, Sphere>(),
+                             contacts_on<Mesh, Box, Capsule, Convex, Cylinder, Ellipsoid, Sphere>())),
+               {Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite,
+                Feature::friction_none, Feature::restitution, Feature::rolling_friction, Feature::torsional_friction,
+                Feature::joints_with_contacts, Feature::joint_limit, Feature::joint_limit_of_compound_slider,
+                Feature::motor_speed, Feature::joint_friction}),
     .options = {kSubStepsOption, kImpactsOption},
     .make = make_impulse_stepper,
 };

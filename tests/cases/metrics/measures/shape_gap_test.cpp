@@ -116,6 +116,19 @@ BOOST_AUTO_TEST_CASE(plain_poses_have_plain_gaps) {
              boost::test_tools::tolerance(1e-13));
 }
 
+// Thin shapes side by side: the first of the two algorithms for curved shapes ends near a touch, on either side of it.
+BOOST_AUTO_TEST_CASE(a_shallow_overlap_of_curved_shapes_is_no_touch) {
+  for (const double gap : {-1e-3, -2e-5, -1e-7, 1e-7, 2e-5}) {
+    for (int k = 0; k < 50; ++k) {
+      const Quat turn = rotation_by(random_vector(3));
+      const double along = uniform(-0.5, 0.5), distance = 0.05 + 0.2 + gap;
+      const BodyPose a{random_vector(1), turn}, b{a.position + turn * Vec3(0, distance, along), turn};
+      BOOST_TEST(std::abs(shape_gap(Cylinder{0.05, 1.5}, a, Capsule{0.2, 0.8}, b) - gap) < 1e-8);
+      BOOST_TEST(std::abs(shape_gap(Cylinder{0.05, 1.5}, a, Cylinder{0.2, 0.8}, b) - gap) < 1e-8);
+    }
+  }
+}
+
 // Two cubes, each on an edge, one across the other: their faces' normals all lean by 45 degrees, the edges' product is
 // upright.
 BOOST_AUTO_TEST_CASE(crossed_edges_have_a_gap_of_their_own) {

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "core/dynamics/collision/convex_distance.h"
+#include "cases/metrics/measures/convex_distance.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
 using namespace rigor;
@@ -50,6 +50,13 @@ Convex stretched(const Convex& convex, const Vec3& by) {
 
 // Its faces meet at 70 degrees, so their normals are 110 degrees apart.
 Convex tetrahedron() { return {hull_of({{0.5, 0.5, 0.5}, {0.5, -0.5, -0.5}, {-0.5, 0.5, -0.5}, {-0.5, -0.5, 0.5}})}; }
+
+bool is_polyhedron(const Shape& shape) {
+  return std::holds_alternative<Box>(shape) || std::holds_alternative<Convex>(shape);
+}
+bool is_curved(const Shape& shape) {
+  return std::holds_alternative<Cylinder>(shape) || std::holds_alternative<Ellipsoid>(shape);
+}
 
 const ManifoldPoint& nearest_of(const Manifold& points) {
   return *std::min_element(points.begin(), points.end(), [](const auto& p, const auto& q) { return p.gap < q.gap; });
@@ -121,6 +128,21 @@ BOOST_AUTO_TEST_CASE(a_box_and_its_hull_touch_alike) {
   }
 }
 
+// `impulse` numbers the corners of a box by axes that a mirror mirrors. The faces are the same.
+BOOST_AUTO_TEST_CASE(a_box_of_mirrored_axes_touches_with_its_whole_face) {
+  const Shape box = Box{{0.4, 0.4, 0.2}};
+  for (const Shape& below : {Shape(hull_of_box({1, 1, 0.2})), Shape(Cylinder{0.5, 0.2}),
+                             Shape(Mesh{{closed_surface(scaled(unit_cube(), Vec3(0.3, 0.3, 0.2)))}})}) {
+    for (int mirrored = 0; mirrored < 8; ++mirrored) {
+      const Vec3 signs(mirrored & 1 ? -1 : 1, mirrored & 2 ? -1 : 1, mirrored & 4 ? -1 : 1);
+      Manifold points;
+      collide(box, Pose{{0, 0, 0.2}, signs.asDiagonal()}, below, Pose(), points);
+      const auto touching = std::count_if(points.begin(), points.end(), [](const auto& p) { return p.gap < 1e-12; });
+      BOOST_TEST(touching >= 4, shape_name(below) << " " << mirrored << ": " << touching);
+    }
+  }
+}
+
 // Overlaps are exact; a gap of two polyhedra apart is that along the best axis, never more than the distance.
 BOOST_AUTO_TEST_CASE(gaps_are_those_by_support_functions) {
   PairRandom random(5);
@@ -137,8 +159,7 @@ BOOST_AUTO_TEST_CASE(gaps_are_those_by_support_functions) {
   Manifold points;
   for (const Shape& a : shapes) {
     for (const Shape& b : shapes) {
-      const bool both_flat = !std::holds_alternative<Sphere>(a) && !std::holds_alternative<Sphere>(b) &&
-                             !std::holds_alternative<Capsule>(a) && !std::holds_alternative<Capsule>(b);
+      const bool both_flat = is_polyhedron(a) && is_polyhedron(b);
       // Both algorithms of convex_distance() end at about 1e-9 for round shapes, and at a few roundings for flat ones.
       for (int round = 0; round < 60; ++round) {
         const Pose pose_a = random.pose(0.35), pose_b = random.pose(0.35);
@@ -147,10 +168,15 @@ BOOST_AUTO_TEST_CASE(gaps_are_those_by_support_functions) {
         BOOST_REQUIRE(points.size() > 0);
         const double gap = nearest_of(points).gap;
         BOOST_TEST_CONTEXT(shape_name(a) << "-" << shape_name(b) << " " << gap << " " << truth) {
-          if (truth > 0 && both_flat)
+          // A deep overlap with a curved shape may be found along a longer way. contact=impulse gives up before that.
+          const double smaller = std::min(inradius(a), inradius(b));
+          if (truth < -0.2 * smaller && (is_curved(a) || is_curved(b)))
+            BOOST_TEST(separation_along(nearest_of(points).normal, a, pose_a, b, pose_b) < truth + 1e-6);
+          else if (truth > 0 && both_flat)
             BOOST_TEST((gap > 0 && gap <= truth + 1e-9));
           else if (truth > 0 || !both_flat)
-            BOOST_TEST(std::abs(gap - truth) < 1e-6);
+            // Points of a flat end leave out what is 1e-5 of its width deeper.
+            BOOST_TEST(std::abs(gap - truth) < 1e-5);
           else  // a face axis is taken in place of an edge axis that is up to 1e-5 inradii better
             BOOST_TEST(std::abs(separation_along(nearest_of(points).normal, a, pose_a, b, pose_b) - truth) < 5e-6);
         }

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "core/dynamics/collision/convex_distance.h"
+#include "cases/metrics/measures/convex_distance.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
 using namespace rigor;
@@ -45,8 +45,11 @@ Heightfield flat_ground(std::size_t count) {
 Mesh mesh_of_box(const Vec3& size) { return {{closed_surface(scaled(unit_cube(), size))}}; }
 
 std::vector<Shape> shapes() {
-  return {Box{{0.3, 0.5, 0.2}}, Capsule{0.1, 0.4},
+  return {Box{{0.3, 0.5, 0.2}},
+          Capsule{0.1, 0.4},
           Convex{hull_of({{0.2, 0, -0.1}, {-0.2, 0.1, -0.1}, {0, -0.2, 0.15}, {0, 0.2, 0.2}, {0.1, 0.1, 0.3}})},
+          Cylinder{0.15, 0.3},
+          Ellipsoid{{0.1, 0.15, 0.2}},
           Sphere{0.2}};
 }
 
@@ -130,6 +133,36 @@ BOOST_AUTO_TEST_CASE(polyhedra_meet_a_mesh_of_a_box_as_they_meet_the_box) {
   }
   BOOST_TEST(all > 500);
   BOOST_TEST(same > 0.4 * all);
+}
+
+// Their distance from the box is known to the last digits (curved_pairs_test.cpp).
+BOOST_AUTO_TEST_CASE(curved_shapes_are_as_far_from_a_mesh_of_a_box_as_from_the_box) {
+  constexpr double kNear = 1e-3;
+  Random random;
+  const Vec3 size(0.8, 0.5, 0.6);
+  const Shape mesh = mesh_of_box(size), box = Box{size};
+  for (const Shape& shape :
+       {Shape(Cylinder{0.15, 0.5}), Shape(Cylinder{0.3, 0.1}), Shape(Ellipsoid{{0.1, 0.2, 0.3}})}) {
+    int same = 0, all = 0;
+    for (int k = 0; k < 1000; ++k) {
+      Pose at{random.vector(1), random.turn()};
+      Manifold points;
+      collide(shape, at, box, {}, points);
+      const auto nearest =
+          std::min_element(points.begin(), points.end(), [](const auto& p, const auto& q) { return p.gap < q.gap; });
+      if (nearest->gap < 0.05) continue;
+      const Pose close{at.p - (nearest->gap - kNear) * nearest->normal, at.R},
+          inside{at.p - (nearest->gap + kNear) * nearest->normal, at.R};
+      const double expected = least_gap(shape, close, box, {}), found = least_gap(shape, close, mesh, {});
+      BOOST_TEST(found > expected - 1e-6);
+      ++all, same += std::abs(found - expected) < 1e-6;
+      // A rim inside an edge is deeper along a face's normal than along the edge's.
+      const double overlap = least_gap(shape, inside, mesh, {});
+      BOOST_TEST((overlap < 0 && overlap > -4 * kNear), overlap);
+    }
+    BOOST_TEST(all > 500);
+    BOOST_TEST(same > 0.99 * all, shape_name(shape) << ": " << same << " of " << all);
+  }
 }
 
 // Of a corner a little way into a step, the side of the step is real, and the depth below its top is not.

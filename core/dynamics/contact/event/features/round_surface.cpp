@@ -1,6 +1,6 @@
 #include "core/dynamics/contact/event/features/round_surface.h"
 
-#include "core/dynamics/collision/narrow_phase.h"
+#include "core/dynamics/collision/curved/curved_ways.h"
 
 namespace rigor {
 

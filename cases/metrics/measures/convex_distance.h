@@ -1,6 +1,7 @@
 // The signed distance of any two convex shapes by their support functions. Shapes that are apart: Gilbert, Johnson and
 // Keerthi's algorithm (1988). Shapes that overlap: van den Bergen's expanding polytope (2001), which finds the
-// direction of least overlap. Flat shapes take few steps; round ones converge to about 1e-9 of their size.
+// direction of least overlap. Flat shapes take few steps; round ones converge to about 1e-9 of their size. No contact
+// method uses it, so that it judges the core's contacts as it judges those of any engine.
 #pragma once
 
 #include "core/dynamics/collision/narrow_phase.h"

@@ -1,4 +1,4 @@
-#include "core/dynamics/collision/convex_distance.h"
+#include "cases/metrics/measures/convex_distance.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -11,15 +11,17 @@ namespace {
 
 constexpr int kMostDistanceRounds = 256;
 constexpr double kDistanceConverged = 1e-12;  // of the squared distance, or of the shapes' size
+// Of the shapes' size. Within this distance the first algorithm cannot tell a touch from an overlap.
+constexpr double kTouch = 1e-9;
 
 // A point of the Minkowski difference a - b, and the two points that it comes from.
 struct Difference {
   Vec3 at, of_a, of_b;
 };
 
-class Pair {
+class ConvexPair {
  public:
-  Pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b)
+  ConvexPair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b)
       : a_(a), b_(b), pose_a_(pose_a), pose_b_(pose_b), size_(rigor::bounding_radius(a) + rigor::bounding_radius(b)) {}
 
   Difference furthest(const Vec3& n) const {
@@ -42,7 +44,7 @@ class Pair {
 };
 
 // The part of a simplex nearest to the origin, and the weights of its corners.
-struct Nearest {
+struct NearestPart {
   std::vector<Difference> corners;
   std::vector<double> weights;
   Vec3 at = Vec3::Zero();
@@ -50,8 +52,8 @@ struct Nearest {
 
 // Among all parts of the simplex, the one whose nearest point lies inside it and is nearest to the origin. `touching`:
 // m², the square of a distance that counts as none.
-Nearest nearest_of(const std::vector<Difference>& simplex, double touching) {
-  Nearest best;
+NearestPart nearest_of(const std::vector<Difference>& simplex, double touching) {
+  NearestPart best;
   double least = std::numeric_limits<double>::infinity();
   for (unsigned chosen = 1; chosen < 1u << simplex.size(); ++chosen) {
     std::vector<Difference> corners;
@@ -78,7 +80,7 @@ Nearest nearest_of(const std::vector<Difference>& simplex, double touching) {
   return best;
 }
 
-ConvexGap from_weights(const Nearest& nearest) {
+ConvexGap from_weights(const NearestPart& nearest) {
   Vec3 of_a = Vec3::Zero(), of_b = Vec3::Zero();
   for (std::size_t k = 0; k < nearest.corners.size(); ++k) {
     of_a += nearest.weights[k] * nearest.corners[k].of_a, of_b += nearest.weights[k] * nearest.corners[k].of_b;
@@ -96,7 +98,7 @@ struct Triangle {
 
 class Polytope {
  public:
-  Polytope(const Pair& pair, const std::vector<Difference>& tetrahedron) : pair_(pair), points_(tetrahedron) {
+  Polytope(const ConvexPair& pair, const std::vector<Difference>& tetrahedron) : pair_(pair), points_(tetrahedron) {
     middle_ = (points_[0].at + points_[1].at + points_[2].at + points_[3].at) / 4;
     for (const std::array<std::size_t, 3>& corners :
          {std::array<std::size_t, 3>{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}})
@@ -173,14 +175,14 @@ class Polytope {
     return {-triangle.offset, -triangle.normal, 0.5 * (of_a + of_b)};
   }
 
-  const Pair& pair_;
+  const ConvexPair& pair_;
   std::vector<Difference> points_;
   Vec3 middle_;
   std::vector<Triangle> triangles_;
 };
 
 // Adds corners to a simplex until it is a tetrahedron, each as far from the others' point, line or plane as it can be.
-std::vector<Difference> completed(std::vector<Difference> simplex, const Pair& pair) {
+std::vector<Difference> completed(std::vector<Difference> simplex, const ConvexPair& pair) {
   while (simplex.size() < 4) {
     const Vec3 &origin = simplex[0].at, side = simplex.size() > 1 ? Vec3(simplex[1].at - origin) : Vec3::Zero();
     const auto beyond = [&](const Difference& point) {
@@ -204,15 +206,15 @@ std::vector<Difference> completed(std::vector<Difference> simplex, const Pair& p
 }  // namespace
 
 ConvexGap convex_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  const Pair pair(a, pose_a, b, pose_b);
+  const ConvexPair pair(a, pose_a, b, pose_b);
   const double touching = kDistanceConverged * pair.size() * pair.size();
   std::vector<Difference> simplex = {pair.furthest(-pair.between())};
   for (int round = 0; round < kMostDistanceRounds; ++round) {
-    const Nearest nearest = nearest_of(simplex, touching);
+    const NearestPart nearest = nearest_of(simplex, touching);
     const double square = nearest.at.squaredNorm();
     if (nearest.corners.size() == 4) return Polytope(pair, nearest.corners).expand();
     // The origin lies on a part of the simplex: the shapes touch, or overlap in a special way.
-    if (square <= kDistanceConverged * kDistanceConverged * pair.size() * pair.size())
+    if (square <= kTouch * kTouch * pair.size() * pair.size())
       return Polytope(pair, completed(nearest.corners, pair)).expand();
     const Difference further = pair.furthest(-nearest.at);
     if (square - nearest.at.dot(further.at) <= kDistanceConverged * square || round + 1 == kMostDistanceRounds)

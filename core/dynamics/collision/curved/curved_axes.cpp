@@ -1,0 +1,242 @@
+#include "core/dynamics/collision/curved/curved_axes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/dynamics/collision/curved/curved_ways.h"
+#include "core/dynamics/collision/curved/smooth_ascent.h"
+
+namespace rigor {
+namespace {
+
+constexpr double kSameWay = 1e-12;     // of the size: by how much a point may reach beyond the one that is looked at
+constexpr double kAway = 0.1;          // rad: from a flat end to a start uphill
+constexpr double kShallow = 0.01;      // of the smaller inradius: an overlap
+constexpr double kRoundingOf = 1e-13;  // of the size: directions that gain less count as equal
+
+struct FromSolid {
+  const CurvedSolid& solid;
+  const CurvedSolid& other;
+
+  SeparationAt operator()(const Vec3& n) const {
+    return {solid.centre - other.centre - solid.support(n) - other.support(n), -solid.bend(n) - other.bend(n)};
+  }
+};
+
+// The part of a solid that is smooth around its support along n: of a cylinder, that rim.
+CurvedSolid smooth_part(const CurvedSolid& solid, const Vec3& n) {
+  CurvedSolid part = solid;
+  if (!solid.is_cylinder) return part;
+  part.centre += (n.dot(solid.axis()) < 0 ? -1 : 1) * solid.half() * solid.axis();
+  part.radii.z() = 0;
+  return part;
+}
+
+// Tries directions from a polyhedron to the solid.
+class FromHull {
+ public:
+  FromHull(const CurvedSolid& solid, const PlacedHull& hull) : solid_(solid), hull_(hull) {
+    size_ = solid.size() + (hull.points.front() - hull.centre).norm();
+  }
+
+  CurvedAxis find() {
+    try_faces();
+    if (solid_.is_cylinder) try_ends();
+    for (std::size_t e = 0; e < hull_.hull->edges.size(); ++e) {
+      if (may_touch_edge(hull_.hull->edges[e])) try_edge(static_cast<int>(e));
+    }
+    for (std::size_t i = 0; i < hull_.points.size(); ++i) try_corner(static_cast<int>(i));
+    return best_;
+  }
+
+ private:
+  const Vec3& point(int i) const { return hull_.points[PlacedHull::index(i)]; }
+  const Vec3& normal(int f) const { return hull_.normals[PlacedHull::index(f)]; }
+
+  double from(const Vec3& p, const Vec3& n) const { return n.dot(solid_.centre - p) - solid_.reach(n); }
+
+  void offer(const CurvedAxis& axis) {
+    if (axis.separation > best_.separation + kRoundingOf * size_) best_ = axis;
+  }
+
+  void try_faces() {
+    deepest_.resize(hull_.normals.size());
+    for (std::size_t f = 0; f < hull_.normals.size(); ++f) {
+      const Vec3& n = hull_.normals[f];
+      deepest_[f] = solid_.centre - solid_.support(n);
+      offer({n.dot(solid_.centre) - solid_.reach(n) - hull_.offsets[f], n, -1, -1});
+    }
+  }
+
+  void try_ends() {
+    for (const Vec3& n : {solid_.axis(), Vec3(-solid_.axis())}) {
+      int furthest = 0;
+      for (std::size_t i = 1; i < hull_.points.size(); ++i) {
+        if (n.dot(hull_.points[i]) > n.dot(point(furthest))) furthest = static_cast<int>(i);
+      }
+      offer({from(point(furthest), n), n, furthest, -1});
+    }
+  }
+
+  // An edge touches before both of its faces only if the solid lies beyond one of them where it is deepest. A ball
+  // around the solid's centre bounds the separation.
+  bool may_touch_edge(const Hull::Edge& edge) const {
+    const Vec3 &at = point(edge.from), along = hull_.edge(edge);
+    const auto is_beyond = [&](int face, double side) {
+      const Vec3 out = side * along.cross(normal(face));
+      return out.dot(deepest_[PlacedHull::index(face)] - at) > -kSameWay * size_ * along.norm();
+    };
+    if (!is_beyond(edge.left, 1) && !is_beyond(edge.right, -1)) return false;
+    const Vec3 line = solid_.centre - at;
+    const double share = std::clamp(along.dot(line) / along.squaredNorm(), 0.0, 1.0);
+    return (line - share * along).norm() - solid_.inradius() > best_.separation;
+  }
+
+  void try_edge(int number) {
+    const Hull::Edge& edge = hull_.hull->edges[PlacedHull::index(number)];
+    const Vec3 &at = point(edge.from), along = hull_.edge(edge).normalized();
+    const Vec3 into_left = normal(edge.left).cross(along), into_right = along.cross(normal(edge.right));
+    for (const Vec3& n : ways_from_line(solid_, at, along)) {
+      if (n.dot(into_left) <= kSameWay && n.dot(into_right) <= kSameWay) offer({from(at, n), n, -1, number});
+    }
+  }
+
+  void try_corner(int number) {
+    const Vec3& p = point(number);
+    if ((p - solid_.centre).norm() - solid_.inradius() <= best_.separation) return;
+    for (const Vec3& n : ways_from_point(solid_, p)) {
+      const double separation = from(p, n);
+      if (separation <= best_.separation) continue;
+      const double most = n.dot(p) + kSameWay * size_;
+      if (std::all_of(hull_.points.begin(), hull_.points.end(),
+                      [&](const Vec3& other) { return n.dot(other) <= most; }))
+        offer({separation, n, number, -1});
+    }
+  }
+
+  const CurvedSolid& solid_;
+  const PlacedHull& hull_;
+  double size_;                // m
+  std::vector<Vec3> deepest_;  // by face: the solid's point that lies deepest behind it
+  CurvedAxis best_;
+};
+
+// Tries directions from a curved solid to another one.
+class FromCurved {
+ public:
+  FromCurved(const CurvedSolid& solid, const CurvedSolid& other)
+      : solid_(solid), other_(other), line_(solid.centre - other.centre), size_(solid.size() + other.size()) {}
+
+  CurvedAxis find() {
+    // Flat ends, and straight sides.
+    for (const CurvedSolid* flat : {&other_, &solid_}) {
+      if (flat->is_cylinder) offer(flat->axis()), offer(-flat->axis());
+    }
+    if (other_.is_cylinder) {
+      for (const Vec3& n : ways_from_line(solid_, other_.centre, other_.axis())) offer(n), offer(-n);
+    }
+    if (solid_.is_cylinder) {
+      for (const Vec3& n : ways_from_line(other_, solid_.centre, solid_.axis())) offer(n), offer(-n);
+    }
+    // Smooth parts. Of solids that are apart, no direction but the best one is a local maximum.
+    if (line_.norm() > kUpright * size_) climb_from(line_.normalized());
+    if (best_.separation > 0 && is_level()) return best_;
+    find_starts();
+    for (const CurvedAxis& start : starts_) {
+      if (std::isfinite(start.separation)) climb_from(start.n);
+    }
+    return best_;
+  }
+
+ private:
+  double separation(const Vec3& n) const { return n.dot(line_) - solid_.reach(n) - other_.reach(n); }
+
+  void offer(const Vec3& n) {
+    const double found = separation(n);
+    if (found > best_.separation + kRoundingOf * size_) best_ = {found, n, -1, -1};
+  }
+
+  // A flat end of the smooth parts that face each other along `start` may be their best direction itself, and no other
+  // one is unless they overlap deeply. At an end that is not, the way uphill leads away from it.
+  void climb_from(Vec3 start) {
+    const CurvedSolid one = smooth_part(solid_, -start), two = smooth_part(other_, start);
+    const FromSolid both{one, two};
+    for (const CurvedSolid* rim : {&one, &two}) {
+      if (!rim->is_cylinder) continue;
+      const Vec3 out = (start.dot(rim->axis()) < 0 ? -1 : 1) * rim->axis(), aside = rim->across(both(out).gradient);
+      const double length = aside.norm();
+      const bool is_top = length <= rim->radius();
+      if (is_top && out.dot(both(out).gradient) > -kShallow * std::min(solid_.inradius(), other_.inradius())) return;
+      if (!is_top && rim->across(start).norm() < kNearlyFlat) start = (out + kAway / length * aside).normalized();
+    }
+    offer(uphill(both, start, size_));
+  }
+
+  // At a kink the slope does not tell.
+  bool is_level() const {
+    constexpr double kLevel = 1e-9;  // of the size
+    const Vec3 slope = FromSolid{solid_, other_}(best_.n).gradient - best_.separation * best_.n;
+    return slope.norm() < kLevel * size_;
+  }
+
+  // Smooth parts meet within the four lunes between the planes across both solids' flat axes. Of each lune, the best
+  // direction of a coarse look around.
+  void find_starts() {
+    const Vec3 flat = flat_axis(solid_), other_flat = flat_axis(other_);
+    const auto consider = [&](const Vec3& n) {
+      const std::size_t lune = (n.dot(flat) < 0 ? 1u : 0u) + (n.dot(other_flat) < 0 ? 2u : 0u);
+      const double found = separation(n);
+      if (found > starts_[lune].separation) starts_[lune] = {found, n, -1, -1};
+    };
+    for (int k = 0; k < 27; ++k) {
+      const Vec3 n(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+      if (!n.isZero(0)) consider(solid_.R * n.normalized());
+    }
+    for (const double side : {1.0, -1.0}) {
+      const Vec3 middle = flat + side * other_flat;
+      if (middle.norm() > kUpright) consider(middle.normalized()), consider(-middle.normalized());
+    }
+    for (int axis = 0; axis < 3; ++axis) consider(other_.R.col(axis)), consider(-other_.R.col(axis));
+  }
+
+  static Vec3 flat_axis(const CurvedSolid& solid) {
+    if (solid.is_cylinder) return solid.axis();
+    int shortest = 0;
+    solid.radii.minCoeff(&shortest);
+    return solid.R.col(shortest);
+  }
+
+  const CurvedSolid& solid_;
+  const CurvedSolid& other_;
+  Vec3 line_;    // m, from the other's centre to the solid's
+  double size_;  // m
+  std::array<CurvedAxis, 4> starts_;
+  CurvedAxis best_;
+};
+
+}  // namespace
+
+CurvedAxis best_axis(const CurvedSolid& solid, const PlacedHull& hull) { return FromHull(solid, hull).find(); }
+
+CurvedAxis best_axis(const CurvedSolid& solid, const Line& line) {
+  CurvedAxis best;
+  const auto offer = [&](const Vec3& n, int corner, int edge) {
+    const double reach = std::max(n.dot(line.from), n.dot(line.to)),
+                 separation = n.dot(solid.centre) - solid.reach(n) - reach;
+    if (separation > best.separation) best = {separation, n, corner, edge};
+  };
+  const Vec3 along = line.to - line.from;
+  for (const Vec3& n : ways_from_line(solid, line.from, along.normalized())) offer(n, -1, 0);
+  for (const int end : {0, 1}) {
+    for (const Vec3& n : ways_from_point(solid, end == 0 ? line.from : line.to)) offer(n, end, -1);
+  }
+  if (solid.is_cylinder) {
+    for (const Vec3& n : {solid.axis(), Vec3(-solid.axis())}) offer(n, n.dot(along) > 0 ? 1 : 0, -1);
+  }
+  return best;
+}
+
+CurvedAxis best_axis(const CurvedSolid& solid, const CurvedSolid& other) { return FromCurved(solid, other).find(); }
+
+}  // namespace rigor
