@@ -22,6 +22,9 @@ std::vector<std::string> ode_calls(const Settings& settings, const std::string& 
   calls.push_back(fmt::format("dBodySetFiniteRotationMode(body, {});", is_finite ? 1 : 0));
   const bool is_gyroscopic = word_option(settings, kOdeGyroscopic) == "on";
   calls.push_back(fmt::format("dBodySetGyroscopicMode(body, {});", is_gyroscopic ? 1 : 0));
+  if (is_named(settings, kOdeServo) && word_option(settings, kOdeServo) == "native")
+    calls.push_back(
+        "// each servo is both stops at its target: dParamStopERP dt kp/(dt kp + kd), dParamStopCFM 1/(dt kp + kd)");
   const std::string auto_note = settings.method == "auto" ? "  // dWorldQuickStep for large scenes" : "";
   calls.push_back(fmt::format("{}(world, {});{}", is_quick ? "dWorldQuickStep" : "dWorldStep", dt, auto_note));
   return calls;

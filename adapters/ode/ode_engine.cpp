@@ -25,7 +25,7 @@ const Features kOdeContacts =
                    contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>()}),
            joined(contacts_on<Heightfield, Box, Capsule, Sphere>(), contacts_on<Mesh, Box, Capsule, Sphere>()));
 
-std::vector<OptionInfo> options_of_both() { return {kOdeGyroscopic, kOdeRotation, kOdeErp, kOdeCfm}; }
+std::vector<OptionInfo> options_of_both() { return {kOdeGyroscopic, kOdeRotation, kOdeErp, kOdeCfm, kOdeServo}; }
 
 Features joints_of_all_kinds() {
   return joined(kCoordinateFeatures,
@@ -84,6 +84,7 @@ std::unique_ptr<World> OdeEngine::load(const Scene& scene, const Settings& setti
 
 // Only these options affect smooth motion. An unnamed cfm follows from the masses, in the engine and in its twin.
 std::string OdeEngine::twin(const Settings& settings) const {
+  if (word_option(settings, kOdeServo) == "native") return "";  // its soft stops solve for the effort at the step's end
   const bool matched = settings.track == Track::matched;
   std::string name =
       fmt::format("core:ode-twin,gyroscopic={},rotation={},erp={}", word_option(settings, kOdeGyroscopic),

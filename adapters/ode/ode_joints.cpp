@@ -10,6 +10,7 @@
 #include "adapters/ode/ode_joint_ends.h"
 #include "adapters/ode/ode_library.h"
 #include "core/base/error.h"
+#include "core/engine/engine_failure.h"
 
 namespace rigor {
 
@@ -94,7 +95,8 @@ void refuse_shared_motors(const Scene& scene) {
   }
 }
 
-OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track) {
+OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track,
+                     bool native_servos) {
   for (const Joint& joint : scene.joints) {
     const OdeJointEnds ends(scene, joint);
     const Maker maker{world, ends, bodies[ends.bodies.first],
@@ -107,6 +109,40 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
   }
   for (const Motor& motor : scene.motors) {
     if (motor.speed) motors_.push_back(motor);  // an effort is one of the loads
+    if (motor.servo && native_servos) add_servo(scene, motor);
+  }
+}
+
+// A stop has no bound of its force, and where both stops stand at one place ODE leaves out the joint's motor.
+void OdeJoints::add_servo(const Scene& scene, const Motor& motor) {
+  const auto refuse = [&](const char* what) {
+    throw EngineFailure(FailureKind::unsupported,
+                        fmt::format("the servo of {} {}, which ODE's stops do not; servo=computed does",
+                                    scene.joint_name(static_cast<std::size_t>(motor.joint)), what));
+  };
+  const auto shares_the_joint = [&](const Motor& other) { return other.speed && other.joint == motor.joint; };
+  if (motor.servo->period > 0) refuse("samples");
+  if (motor.from > 0 || std::isfinite(motor.until)) refuse("begins late or ends");
+  if (std::isfinite(motor.servo->most)) refuse("has a bound of its effort");
+  if (motor.servo->kp == 0) refuse("has no kp");
+  if (scene.joints[static_cast<std::size_t>(motor.joint)].has_limits()) refuse("acts beside limits");
+  if (std::any_of(scene.motors.begin(), scene.motors.end(), shares_the_joint))
+    refuse("acts beside friction or a motor of given speed");
+  servos_.push_back(motor);
+}
+
+void OdeJoints::aim(double t, double dt) {
+  for (const Motor& motor : servos_) {
+    const Servo& servo = *motor.servo;
+    const Held& held = joints_[static_cast<std::size_t>(motor.joint)];
+    const bool turns = held.axis == &kHinge;
+    const double at = turns ? dJointGetHingeAngle(held.id) : dJointGetSliderPosition(held.id);
+    double behind = servo.target.at(t + dt) - held.sign * at;
+    if (turns) behind = std::remainder(behind, 2 * std::numbers::pi);
+    const double target = at + held.sign * (behind + servo.kd / servo.kp * servo.target_speed);
+    held.axis->set(held.id, dParamLoStop, target), held.axis->set(held.id, dParamHiStop, target);
+    held.axis->set(held.id, dParamStopERP, dt * servo.kp / (dt * servo.kp + servo.kd));
+    held.axis->set(held.id, dParamStopCFM, 1 / (dt * servo.kp + servo.kd));
   }
 }
 
@@ -128,6 +164,7 @@ void OdeJoints::ask_for_reactions() {
 
 // ODE's, too, are in W, and its torque is about the body's centre of mass.
 std::vector<ReportedReaction> OdeJoints::reactions() const {
+  if (!servos_.empty()) return {};  // they would hold the servos' efforts
   std::vector<ReportedReaction> reactions;
   for (std::size_t k = 0; k < feedback_.size(); ++k) {
     const dJointFeedback& of = feedback_[k];
@@ -180,6 +217,8 @@ void OdeJoints::set_cfm(double cfm) {
 SettingsInForce OdeJoints::settings_in_force() const {
   if (joints_.empty()) return {};
   SettingsInForce settings = {{"springs, dampers and efforts of joints", "user forces, recomputed before each step"}};
+  if (!servos_.empty())
+    settings.emplace_back("servos", "ODE's stops at the target, softened to kp and kd: implicit Euler");
   for (const Held& held : joints_) {
     const dJointType type = dJointGetType(held.id);
     const bool has_own = type == dJointTypeBall || type == dJointTypeFixed || type == dJointTypeDBall;

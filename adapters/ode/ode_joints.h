@@ -17,11 +17,15 @@ class OdeJoints {
  public:
   // The world's ERP and CFM must be set already, because some joints copy them. Bodies are at their poses of t = 0;
   // null stands for a fixed body. The world destroys the joints.
-  OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track);
+  // `native_servos`: ODE has them, else they are among the loads. Throws EngineFailure for one that ODE cannot have.
+  OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBodyID>& bodies, Track track, bool native_servos);
 
   // For a step whose middle is t: turns on the motors that keep a speed from <= t < until, and the others off; and puts
   // the stops of hinges into the turn that these are in.
   void drive(double t);
+  // For a step from t to t + dt, after set_cfm(): puts both stops of each servo's joint at its target, with the
+  // softness that makes of them a spring kp and a damper kd by implicit Euler (ODE's manual, "How to use ERP and CFM").
+  void aim(double t, double dt);
   // Values that hinges, sliders and universal joints read in each step, for the joints that copy them.
   void set_cfm(double cfm);
 
@@ -53,12 +57,14 @@ class OdeJoints {
   struct Maker;
 
   void set_limits(const Joint& joint, const Held& held, Track track);
+  void add_servo(const Scene& scene, const Motor& motor);
   void unwind();
 
   static const Axis kHinge, kSlider;
   std::vector<Held> joints_;  // in the scene's order
   std::vector<dJointFeedback> feedback_;
   std::vector<Motor> motors_;  // those that keep a speed
+  std::vector<Motor> servos_;  // that are ODE's own
 };
 
 }  // namespace rigor

@@ -39,6 +39,12 @@ inline const OptionInfo kOdeIterations{
 inline const OptionInfo kOdeSor{
     .name = "sor", .meaning = "over-relaxation factor", .min = 0.01, .max = 2, .by_default = 1.3};
 
+inline const OptionInfo kOdeServo{
+    .name = "servo",
+    .meaning = "who computes a servo's effort: Rigor before each step, or ODE by a soft stop at the target",
+    .choices = {"computed", "native"},
+    .by_default = "computed"};
+
 // The twin has no track of its own: the engine names what its track sets. It knows joints alone.
 inline const OptionInfo kOdeTwinRotation{.name = kOdeRotation.name,
                                          .meaning = kOdeRotation.meaning,

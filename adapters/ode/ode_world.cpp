@@ -69,9 +69,12 @@ bool has_too_many_for_worldstep(const Scene& scene) {
   return std::count_if(scene.bodies.begin(), scene.bodies.end(), can_touch) > kMostForWorldStep;
 }
 
-}  // namespace
+bool has_native_servos(const Settings& settings) { return word_option(settings, kOdeServo) == "native"; }
 
-namespace {
+Scene without_servos(Scene scene) {
+  std::erase_if(scene.motors, [](const Motor& motor) { return motor.servo.has_value(); });
+  return scene;
+}
 
 // ODE multiplies the coefficients of all three axes by the normal force, or none; an infinite one must not be.
 void refuse_infinite_friction_that_rolls(const Scene& scene) {
@@ -86,7 +89,7 @@ void refuse_infinite_friction_that_rolls(const Scene& scene) {
 OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
     : ArchivesState("ode", dODE_VERSION, scene, settings),
       laws_(scene),
-      loads_(scene),
+      loads_(has_native_servos(settings) ? without_servos(scene) : scene),
       can_touch_(anything_can_touch(scene)),
       matched_(settings.track == Track::matched),
       by_size_(settings.method == "auto"),
@@ -100,7 +103,7 @@ OdeWorld::OdeWorld(const Scene& scene, const Settings& settings)
   dWorldSetGravity(world_, scene.gravity.x(), scene.gravity.y(), scene.gravity.z());
   apply(settings, scene);
   for (const Body& body : scene.bodies) add_body(body, settings);
-  joints_.emplace(scene, world_, bodies_, settings.track);
+  joints_.emplace(scene, world_, bodies_, settings.track, has_native_servos(settings));
 }
 
 OdeWorld::~OdeWorld() {
@@ -197,6 +200,7 @@ void OdeWorld::set_cfm(double cfm) {
 void OdeWorld::advance(double dt) {
   if (softness_ > 0) set_cfm(softness_ * dt);
   joints_->drive(clock_.time() + 0.5 * dt);
+  joints_->aim(clock_.time(), dt);
   step_ = dt;
   if (can_touch_) find_contacts();
   const int done = quick_ ? quick_step(dt) : dWorldStep(world_, dt);
