@@ -330,7 +330,10 @@ class EventStepper : public ContactStepper {
       distance_low = attempt(low);
     }
     is_smooth_ = false;
-    if (distance_low > 0) std::tie(low, high) = root(low, high, distance_low, distance_high);
+    if (distance_low > 0)
+      std::tie(low, high) = root(low, high, distance_low, distance_high);
+    else
+      high = low;  // it is there, to the last bit
     // What a mode ends with is chosen anew beyond its end; bodies that meet are stopped before they overlap.
     const bool is_change = (attempt(high), persistent_contact_.distance_from_change() < 0) && least_gap() >= 0;
     if (!is_change) attempt(low), high = low;
