@@ -20,9 +20,9 @@ namespace rigor {
 namespace {
 
 // Bullet has no ellipsoid. A hull without a margin sinks centimetres into fine triangles, and moves there.
-const Features kBulletContacts =
-    joined(contacts_among<Box, Capsule, Convex, Cylinder, Plane, Sphere>(),
-           joined(contacts_on<Heightfield, Box, Capsule, Cylinder, Sphere>(), contacts_on<Mesh, Box, Capsule, Cylinder, Sphere>()));
+const Features kBulletContacts = joined(contacts_among<Box, Capsule, Convex, Cylinder, Plane, Sphere>(),
+                                        joined(contacts_on<Heightfield, Box, Capsule, Cylinder, Sphere>(),
+                                               contacts_on<Mesh, Box, Capsule, Cylinder, Sphere>()));
 
 // Bullet gives its version as one number: 324 is 3.24.
 std::string version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }

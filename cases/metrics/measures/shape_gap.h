@@ -1,6 +1,6 @@
 // The distance between two bodies' surfaces, from the scene's shapes and a pose alone. It is negative for an overlap,
-// by the shortest way that would part them. No engine shares this geometry, but for surfaces of triangles: there the gap
-// is that of the core's points of contact.
+// by the shortest way that would part them. No engine shares this geometry. Only on surfaces of triangles is the gap
+// that of the core's points of contact.
 #pragma once
 
 #include <functional>

@@ -71,7 +71,10 @@ void complete(const ManifoldPoint& crossing, bool is_exact, double size, Manifol
   }
   if (least <= crossing.gap + kSameGap * size) return;
   // Along the axis itself only a touch at the very border is missing.
-  if (is_exact) return crossing.gap > -kTouch * size ? out.add(crossing) : void();
+  if (is_exact) {
+    if (crossing.gap > -kTouch * size) out.add(crossing);
+    return;
+  }
   if ((nearest->point - crossing.point).norm() > kNearlyFlat * size + std::abs(crossing.gap)) return out.add(crossing);
   nearest->normal = crossing.normal, nearest->point = crossing.point, nearest->gap = crossing.gap;
 }

@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(ten_cylinders_stand_on_each_other) {
   double most = 0;
   for (std::size_t i = 0; i < 10; ++i) most = std::max(most, (run.state().position(i) - stack[i].position).norm());
   BOOST_TEST_MESSAGE("moved " << most << ", speed " << run.state().velocity(9).norm());
-  BOOST_TEST(most < 1e-3);  // the goal of the method, as for boxes
+  BOOST_TEST(most < 1e-3);                            // the goal of the method, as for boxes
   BOOST_TEST(run.state().velocity(9).norm() < 1e-6);  // 1.3e-7 m/s measured, and falling
   BOOST_TEST(run.solver_warning() == "");
 }
