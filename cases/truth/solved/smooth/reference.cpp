@@ -2,13 +2,11 @@
 // the truth; its distance from the second is its error. A solution is computed once and kept (solution_cache.h).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "cases/truth/provenance.h"
+#include "cases/truth/solved/smooth/solved_truth.h"
 #include "cases/truth/solved/solution_cache.h"
-#include "cases/truth/solved/solving.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
 #include "core/scene/features/features.h"
@@ -19,26 +17,6 @@ namespace {
 ReferenceSolution reference_solution(const Scene& scene, double duration) {
   return kept_or_solved(reference_content(scene, duration), [&] { return solve_reference(scene, duration); });
 }
-
-class Reference final : public Truth {
- public:
-  Reference(const Scene& scene, ReferenceSolution solution)
-      : motion_(reference_motion(scene, solution)), solution_(std::move(solution)) {}
-
-  void at(double t, MutableBodyColumns out) const override {
-    motion_->write(solving::state_at(solution_, *motion_, t).data(), out);
-  }
-
-  double error(double t) const override {
-    const auto next = std::lower_bound(solution_.error_times.begin(), solution_.error_times.end(), t);
-    if (next != solution_.error_times.end()) return solution_.errors[next - solution_.error_times.begin()];
-    return solution_.complete ? solution_.errors.back() : std::numeric_limits<double>::infinity();
-  }
-
- private:
-  std::unique_ptr<solving::DoubleMotion> motion_;  // for the step from a node
-  ReferenceSolution solution_;
-};
 
 std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
   static const Features solved = {Feature::fixed_body,
@@ -69,7 +47,9 @@ std::unique_ptr<Truth> make_reference(const Scene& scene, double duration) {
     throw InputError(fmt::format("the truth 'reference' is for scenes without contacts; this one has {}: {}",
                                  word_of(need.feature), need.because));
   }
-  return std::make_unique<Reference>(scene, reference_solution(scene, duration));
+  ReferenceSolution solution = reference_solution(scene, duration);
+  auto motion = reference_motion(scene, solution);
+  return std::make_unique<SolvedTruth>(std::move(motion), std::move(solution));
 }
 
 }  // namespace
