@@ -88,6 +88,15 @@ void drive_joint(MjcfImport& import, int k, const Law& law) {
   import.model.motors.push_back(motor);
 }
 
+// Whether something beside the drive itself bounds what it does to a joint of its tendon.
+bool is_bounded_by_others(const MjcfImport& import, int tendon) {
+  if (import.whole("tendon_actfrclimited", tendon)) return true;
+  const int first = import.whole("tendon_adr", tendon);
+  for (int i = first; i < first + import.whole("tendon_num", tendon); ++i)
+    if (import.whole("jnt_actfrclimited", import.whole("wrap_objid", i))) return true;
+  return false;
+}
+
 // The tendon's length is the sum of coefficient times q. It is counted here in units of its first joint.
 void add_servo_of_tendon(MjcfImport& import, int k, const Law& law, int tendon) {
   if (std::isfinite(law.least) || std::isfinite(law.most))
@@ -119,9 +128,9 @@ void add_servo_of_tendon(MjcfImport& import, int k, const Law& law, int tendon) 
 void drive_tendon(MjcfImport& import, int k, const Law& law) {
   const int tendon = import.whole("actuator_trnid", 2 * k), first = import.whole("tendon_adr", tendon);
   if (import.whole("wrap_type", first) != kWrapJoint) return lose_drive(import, k, "pulls a spatial tendon");
+  if (is_bounded_by_others(import, tendon))
+    return lose_drive(import, k, "has its force bounded by its tendon or a joint, too");
   if (law.by_length != 0 || law.by_speed != 0) return add_servo_of_tendon(import, k, law, tendon);
-  if (import.whole("tendon_actfrclimited", tendon))
-    return lose_drive(import, k, "has its force bounded by its tendon, too");
   for (int i = first; i < first + import.whole("tendon_num", tendon); ++i) {
     const int row = import.row_of_joint[import.whole("wrap_objid", i)];
     const double effort = import.value("actuator_gear", kGears * k) * std::clamp(law.constant, law.least, law.most);

@@ -33,7 +33,11 @@ bool flag_of(const XmlElement& element, LeftOut& left_out) {
 
 BodyPose pose_of_urdf_model(const XmlElement& robot, LeftOut& left_out) {
   for (const XmlElement& element : robot.children("gazebo")) {
-    if (!element.find("reference") && element.child("pose")) return sdf_pose(element.child("pose"), left_out);
+    const auto pose = element.child("pose");
+    if (element.find("reference") || !pose) continue;
+    if (pose->find("relative_to") || pose->find("frame"))
+      left_out.add(pose->place(), "a pose", lost("is relative to a frame; a model's pose is read in the world"));
+    return sdf_pose(pose, left_out);
   }
   return {};
 }

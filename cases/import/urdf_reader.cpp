@@ -343,7 +343,7 @@ class UrdfReader {
       place[k] = static_cast<int>(model_.joints.size());
       model_.joints.push_back(rows_[k]);
     }
-    std::erase_if(model_.couplings, [&](LinkCoupling& row) { return !renumber(row, place); });
+    keep_renumbered(model_.couplings, place);
   }
 
   const XmlFile& file_;

@@ -68,6 +68,14 @@ inline bool renumber(int& joint, std::vector<JointTerm>& terms, const std::vecto
 }
 inline bool renumber(LinkCoupling& row, const std::vector<int>& place) { return renumber(row.joint, row.to, place); }
 inline bool renumber(Motor& motor, const std::vector<int>& place) { return renumber(motor.joint, motor.plus, place); }
+// Leaves out the rows of which it is false.
+template <typename Row>
+void keep_renumbered(std::vector<Row>& rows, const std::vector<int>& place) {
+  std::vector<Row> kept;
+  for (Row& row : rows)
+    if (renumber(row, place)) kept.push_back(std::move(row));
+  rows = std::move(kept);
+}
 
 struct LinkModel {
   std::string name;

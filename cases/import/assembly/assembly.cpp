@@ -209,10 +209,12 @@ class Assembler {
 
   void add_motor(Motor motor) {
     const std::string& where = model_.joints[motor.joint].where;
-    if (!renumber(motor, place_)) return;
-    if (const auto fault = fault_of(motor, scene_); fault && !motor.plus.empty())
-      return model_.left_out.add(where, "a servo on several joints", lost(fault->what));
-    scene_.motors.push_back(motor);
+    const bool has_places = renumber(motor, place_), is_of_one = motor.plus.empty();
+    if (!has_places && is_of_one) return;  // which was said of its joint
+    const auto fault = has_places && !is_of_one ? fault_of(motor, scene_) : std::nullopt;
+    if (has_places && !fault) return scene_.motors.push_back(motor);
+    model_.left_out.add(where, "a servo on several joints",
+                        lost(fault ? fault->what : "one of them has no axis of its own in the scene"));
   }
 
   void add_couplings() {

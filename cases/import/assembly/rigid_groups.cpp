@@ -148,8 +148,8 @@ class Massless {
       if (!is_gone_[k]) place[k] = static_cast<int>(left.size()), left.push_back(model_.joints[k]);
     }
     model_.joints = std::move(left);
-    std::erase_if(model_.motors, [&](Motor& motor) { return !renumber(motor, place); });
-    std::erase_if(model_.couplings, [&](LinkCoupling& row) { return !renumber(row, place); });
+    // What acts on the coordinate of a link without mass meets no resistance: it moves nothing else.
+    keep_renumbered(model_.motors, place), keep_renumbered(model_.couplings, place);
   }
 
   LinkModel& model_;

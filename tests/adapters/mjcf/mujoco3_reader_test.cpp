@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 
+#include "adapters/mjcf/mjcf_import.h"
 #include "core/base/error.h"
 #include "tests/folder.h"
 
@@ -52,6 +53,29 @@ BOOST_AUTO_TEST_CASE(numbers_are_those_of_the_file_and_of_its_keyframe) {
   BOOST_TEST((start.numbers.at("qpos") == std::vector<double>{0, 0}));
   BOOST_TEST((home.numbers.at("qpos") == std::vector<double>{0.5, 0.25}));
   BOOST_TEST((start.numbers.at("eq_active") == std::vector<double>{1, 1}));
+}
+
+// MuJoCo 3 bounds what all drives of a joint or a tendon give together. No scene does.
+BOOST_AUTO_TEST_CASE(a_drive_that_its_tendon_or_a_joint_bounds_is_a_loss) {
+  const auto losses = [](const std::string& joint, const std::string& tendon, const std::string& drive) {
+    const Folder folder;
+    const std::string text = R"(<mujoco><worldbody><body><joint name="a" axis="0 1 0" range="-90 90" )" + joint +
+                             R"(/><geom size="0.1" pos="0 0 1"/><body pos="0 0 2">
+      <joint name="b" axis="0 1 0" range="-90 90"/><geom size="0.1" pos="0 0 1"/></body></body></worldbody><tendon>
+      <fixed name="t" )" + tendon +
+                             R"(><joint joint="b" coef="2"/><joint joint="a" coef="1"/></fixed></tendon>
+      <actuator>)" + drive + "</actuator></mujoco>";
+    const MjcfSource source{folder.write("m.xml", text), "", {}, {}};
+    return losses_of(links_of_mjcf(source, read(folder, text)).left_out.all(), LossKind::physical).size();
+  };
+  const std::string servo = R"(<position tendon="t" kp="5"/>)", bounds = R"(actuatorfrcrange="-1 1")";
+  BOOST_TEST(losses("", "", servo) == 0u);
+  BOOST_TEST(losses(bounds, "", servo) == 1u);
+  BOOST_TEST(losses("", bounds, servo) == 1u);
+  const std::string push = R"(<general tendon="t" biastype="affine" biasprm="3 0 0"/>)";
+  BOOST_TEST(losses("", "", push) == 0u);
+  BOOST_TEST(losses(bounds, "", push) == 1u);
+  BOOST_TEST(losses("", bounds, push) == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(a_model_that_it_refuses_is_refused_with_its_line) {

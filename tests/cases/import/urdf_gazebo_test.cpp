@@ -35,6 +35,11 @@ BOOST_AUTO_TEST_CASE(the_pose_of_a_model_moves_all_its_links_and_joints) {
   BOOST_TEST(apart(*axis_of(joint_named(scene, "j")), {0, 1, 0}) < 1e-14);
 }
 
+BOOST_AUTO_TEST_CASE(a_pose_in_another_frame_is_a_loss) {
+  const auto lost = physics_lost("r.urdf", ball_with("<gazebo><pose relative_to='ball'>3 0 5 0 0 0</pose></gazebo>"));
+  BOOST_TEST(some_has(lost, "a pose: is relative to a frame"));
+}
+
 BOOST_AUTO_TEST_CASE(the_pose_of_a_link_is_a_loss) {
   const auto lost = physics_lost("r.urdf", ball_with("<gazebo reference='ball'><pose>3 0 5 0 0 0</pose></gazebo>"));
   BOOST_TEST(some_has(lost, "<pose>: is not of the format"));
