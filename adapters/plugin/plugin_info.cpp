@@ -180,7 +180,7 @@ Features with_wrenches(Features features) {
   features.insert({Feature::spring, Feature::timed_force});
   if (std::any_of(features.begin(), features.end(), is_joint))
     features.insert({Feature::joint_damper, Feature::joint_spring, Feature::joints_with_dampers, Feature::motor_effort,
-                     Feature::motor_servo, Feature::motor_table});
+                     Feature::motor_servo, Feature::motor_servo_of_several_joints, Feature::motor_table});
   return features;
 }
 

@@ -150,7 +150,7 @@ bool is_damped(const Scene& scene) {
 Feature feature_of(const Motor& motor) {
   if (motor.is_friction) return Feature::joint_friction;
   if (motor.speed) return Feature::motor_speed;
-  if (motor.servo) return Feature::motor_servo;
+  if (motor.servo) return motor.plus.empty() ? Feature::motor_servo : Feature::motor_servo_of_several_joints;
   return motor.efforts ? Feature::motor_table : Feature::motor_effort;
 }
 
@@ -179,14 +179,12 @@ std::vector<Need> needs_of(const Scene& scene) {
     if (scene.couplings[k].to.size() > 1) needs.add(Feature::coupling_of_several_joints, scene.coupling_name(k));
   }
   for (const Motor& motor : scene.motors) {
-    needs.add(feature_of(motor), fmt::format("{} {}",
+    needs.add(feature_of(motor), fmt::format("{} {}{}",
                                              motor.is_friction ? "friction in"
                                              : motor.servo     ? "a servo on"
                                                                : "a motor on",
-                                             scene.joint_name(static_cast<std::size_t>(motor.joint))));
-    if (!motor.plus.empty())
-      needs.add(Feature::motor_servo_of_several_joints,
-                fmt::format("a servo on {} and others", scene.joint_name(static_cast<std::size_t>(motor.joint))));
+                                             scene.joint_name(static_cast<std::size_t>(motor.joint)),
+                                             motor.plus.empty() ? "" : " and others"));
   }
   const bool touches = add_contacts(scene, needs);
   if (scene.joints.empty()) return needs.take();
