@@ -109,6 +109,7 @@ OdeJoints::OdeJoints(const Scene& scene, dWorldID world, const std::vector<dBody
   }
   for (const Motor& motor : scene.motors) {
     if (motor.speed) motors_.push_back(motor);  // an effort is one of the loads
+    has_servos_ = has_servos_ || motor.servo;
     if (motor.servo && native_servos) add_servo(scene, motor);
   }
 }
@@ -217,8 +218,10 @@ void OdeJoints::set_cfm(double cfm) {
 SettingsInForce OdeJoints::settings_in_force() const {
   if (joints_.empty()) return {};
   SettingsInForce settings = {{"springs, dampers and efforts of joints", "user forces, recomputed before each step"}};
-  if (!servos_.empty())
-    settings.emplace_back("servos", "ODE's stops at the target, softened to kp and kd: implicit Euler");
+  if (has_servos_)
+    settings.emplace_back("servos", servos_.empty()
+                                        ? "efforts that Rigor computes from the state at each step's start"
+                                        : "ODE's stops at the target, softened to kp and kd: implicit Euler");
   for (const Held& held : joints_) {
     const dJointType type = dJointGetType(held.id);
     const bool has_own = type == dJointTypeBall || type == dJointTypeFixed || type == dJointTypeDBall;

@@ -23,8 +23,8 @@ class OdeJoints {
   // For a step whose middle is t: turns on the motors that keep a speed from <= t < until, and the others off; and puts
   // the stops of hinges into the turn that these are in.
   void drive(double t);
-  // For a step from t to t + dt, after set_cfm(): puts both stops of each servo's joint at its target, with the
-  // softness that makes of them a spring kp and a damper kd by implicit Euler (ODE's manual, "How to use ERP and CFM").
+  // For a step from t to t + dt, after set_cfm(): puts both stops of each servo's joint at its target. Their softness
+  // makes them a spring kp and a damper kd by implicit Euler (ODE's manual, "How to use ERP and CFM").
   void aim(double t, double dt);
   // Values that hinges, sliders and universal joints read in each step, for the joints that copy them.
   void set_cfm(double cfm);
@@ -65,6 +65,7 @@ class OdeJoints {
   std::vector<dJointFeedback> feedback_;
   std::vector<Motor> motors_;  // those that keep a speed
   std::vector<Motor> servos_;  // that are ODE's own
+  bool has_servos_ = false;    // its own or not
 };
 
 }  // namespace rigor

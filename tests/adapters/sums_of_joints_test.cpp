@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "adapters/engines.h"
 #include "core/base/error.h"
-#include "core/engine/run_name.h"
+#include "tests/adapters/free_body_measures.h"
+#include "tests/adapters/seam_runs.h"
 #include "tests/cases/judged.h"
 
 using namespace rigor;
@@ -14,15 +14,8 @@ BOOST_AUTO_TEST_SUITE(adapters_sums_of_joints)
 
 namespace {
 
-BodyTable state_by(const std::string& name, const Scene& scene, double dt, double time) {
-  const RunName run = parse_run_name(name, engines().infos());
-  const auto world = find_engine(engines(), run.engine).load(scene, run.settings);
-  for (long n = 0; n < std::lround(time / dt); ++n) world->step(dt);
-  Snapshot now;
-  world->read(now);
-  BodyTable state(scene.bodies.size());
-  copy_columns(now.bodies(), state.columns());
-  return state;
+BodyTable state_by(const std::string& run, const Scene& scene, double dt, double time) {
+  return state_after(*load_run(run, scene), dt, static_cast<int>(std::lround(time / dt)));
 }
 
 double angle_about_x(const BodyTable& state, std::size_t i) {
@@ -101,15 +94,12 @@ BOOST_AUTO_TEST_CASE(a_differential_shares_its_torque) {
 // An engine without them says so.
 BOOST_AUTO_TEST_CASE(other_engines_call_them_unsupported) {
   for (const char* name : {"ode", "bullet"}) {
-    const RunName run = parse_run_name(name, engines().infos());
     for (const Scene& scene : {two_carts(false), test::suite_scene("transmissions/differential")}) {
       BOOST_TEST_CONTEXT(name)
-      BOOST_CHECK_EXCEPTION(find_engine(engines(), run.engine).load(scene, run.settings), InputError,
-                            [](const InputError& error) {
-                              const std::string what = error.what();
-                              return what.find("several-joints") != std::string::npos ||
-                                     what.find("has no coupling") != std::string::npos;
-                            });
+      BOOST_CHECK_EXCEPTION(load_run(name, scene), InputError, [](const InputError& error) {
+        const std::string what = error.what();
+        return what.find("several-joints") != std::string::npos || what.find("has no coupling") != std::string::npos;
+      });
     }
   }
 }

@@ -2,9 +2,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "adapters/engines.h"
 #include "core/engine/engine_failure.h"
-#include "core/engine/run_name.h"
+#include "tests/adapters/free_body_measures.h"
 
 using namespace rigor;
 
@@ -27,27 +26,22 @@ Scene cart(const Servo& servo, bool turned_about = false) {
   return scene;
 }
 
-// A wheel about z, at 3 rad of which its servo wants -3: the shorter way goes over pi.
+// A wheel about z whose servo wants 4 rad: it is 2.28 rad the other way.
 Scene wheel() {
-  Scene scene = cart({.target = TimeTable::constant(-3), .kp = kKp, .kd = kKd});
+  Scene scene = cart({.target = TimeTable::constant(4), .kp = kKp, .kd = kKd});
   scene.joints[0].type = HingeJoint{Vec3::Zero(), Vec3::UnitZ()};
   scene.bodies[0].inertia = kMass * Mat3::Identity();
   return scene;
 }
 
-BodyState state_by(const std::string& name, const Scene& scene, double dt, long steps) {
-  const RunName run = parse_run_name(name, engines().infos());
-  const auto world = find_engine(engines(), run.engine).load(scene, run.settings);
-  for (long n = 0; n < steps; ++n) world->step(dt);
-  Snapshot now;
-  world->read(now);
-  return now.bodies().body(0);
+BodyState state_by(const std::string& run, const Scene& scene, double dt, int steps) {
+  return body_after(*load_run(run, scene), dt, steps);
 }
 
 // Implicit Euler of m x'' = kp (target - x) + kd (speed - x'), as its definition says.
-double implicit_euler(const Servo& servo, double dt, long steps) {
+double implicit_euler(const Servo& servo, double dt, int steps) {
   double x = 0, v = 0;
-  for (long n = 1; n <= steps; ++n) {
+  for (int n = 1; n <= steps; ++n) {
     const double target = servo.target.at(static_cast<double>(n) * dt);
     v = (v + dt / kMass * (servo.kp * (target - x) + servo.kd * servo.target_speed)) /
         (1 + dt / kMass * (servo.kd + dt * servo.kp));
@@ -83,12 +77,11 @@ BOOST_AUTO_TEST_CASE(a_stiff_servo_is_stable_with_native_servos_alone) {
 }
 
 BOOST_AUTO_TEST_CASE(a_wheel_takes_the_shorter_way) {
-  Scene scene = wheel();
-  const auto angle_after = [&](const char* name, long steps) {
+  const Scene scene = wheel();
+  const auto angle_after = [&](const char* name, int steps) {
     const Quat q = state_by(name, scene, 1e-3, steps).orientation;
     return 2 * std::atan2(q.z(), q.w());
   };
-  scene.motors[0].servo->target = TimeTable::constant(4);  // 2.28 rad the other way
   const double native = angle_after("ode:worldstep,servo=native", 200), computed = angle_after("ode:worldstep", 200);
   BOOST_TEST(native < -0.05);
   BOOST_TEST(std::abs(native - computed) < 0.02 * std::abs(native));  // both of first order
@@ -97,8 +90,7 @@ BOOST_AUTO_TEST_CASE(a_wheel_takes_the_shorter_way) {
 BOOST_AUTO_TEST_CASE(what_stops_cannot_do_is_unsupported) {
   const Servo plain{.target = TimeTable::constant(0.4), .kp = kKp, .kd = kKd};
   const auto refused = [](const Scene& scene, const char* why) {
-    const RunName run = parse_run_name("ode:worldstep,servo=native", engines().infos());
-    BOOST_CHECK_EXCEPTION(find_engine(engines(), run.engine).load(scene, run.settings), EngineFailure,
+    BOOST_CHECK_EXCEPTION(load_run("ode:worldstep,servo=native", scene), EngineFailure,
                           [&](const EngineFailure& failure) {
                             return failure.kind() == FailureKind::unsupported &&
                                    std::string(failure.what()).find(why) != std::string::npos;
@@ -116,9 +108,8 @@ BOOST_AUTO_TEST_CASE(what_stops_cannot_do_is_unsupported) {
 
 // A run whose joints hold servos' efforts tells no reactions: they would be taken for the joint's own.
 BOOST_AUTO_TEST_CASE(reactions_are_not_mixed_with_efforts) {
-  const RunName run = parse_run_name("ode:worldstep,servo=native", engines().infos());
   const Scene scene = cart({.target = TimeTable::constant(0.4), .kp = kKp, .kd = kKd});
-  const auto world = find_engine(engines(), run.engine).load(scene, run.settings);
+  const auto world = load_run("ode:worldstep,servo=native", scene);
   world->capabilities().reactions->ask_for_reactions();
   world->step(1e-3);
   BOOST_TEST(world->capabilities().reactions->reactions().empty());
