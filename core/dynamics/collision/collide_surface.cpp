@@ -16,8 +16,6 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-std::size_t place_in(int i) { return static_cast<std::size_t>(i); }
-
 // A convex shape in the surface's frame.
 struct RoundHull {
   std::vector<Vec3> points;
@@ -31,7 +29,7 @@ struct RoundHull {
   Vec3 centre;
   const PlacedHull* faces = nullptr;
 
-  Vec3 along(const Edge& edge) const { return points[place_in(edge.to)] - points[place_in(edge.from)]; }
+  Vec3 along(const Edge& edge) const { return points[edge.to] - points[edge.from]; }
 };
 
 class OnSurface : SurfaceContacts {
@@ -45,11 +43,7 @@ class OnSurface : SurfaceContacts {
     for (const Vec3& point : shape_.points) low = low.cwiseMin(point), high = high.cwiseMax(point);
     const Vec3 around = Vec3::Constant(shape_.radius);
     look_around(low - around, high + around, reach);
-    for (const int t : near_) points_on(t);
-    for (const int t : near_) {
-      for (const int peak : surface_.peaks_of[index_of(t)]) on_peak(peak);
-      for (const int ridge : surface_.ridges_of[index_of(t)]) on_ridge(ridge);
-    }
+    visit_near([&](int t) { points_on(t); }, [&](int peak) { on_peak(peak); }, [&](int ridge) { on_ridge(ridge); });
     return touches_;
   }
 
@@ -179,8 +173,8 @@ RoundHull round_hull_of(const PlacedHull& placed) {
   shape.points = placed.points, shape.faces = &placed, shape.centre = placed.centre, shape.inradius = placed.inradius;
   for (const Hull::Edge& edge : placed.hull->edges) {
     const Vec3 along = placed.edge(edge).normalized();
-    shape.edges.push_back({edge.from, edge.to, placed.normals[place_in(edge.left)].cross(along),
-                           along.cross(placed.normals[place_in(edge.right)])});
+    shape.edges.push_back(
+        {edge.from, edge.to, placed.normals[edge.left].cross(along), along.cross(placed.normals[edge.right])});
   }
   return shape;
 }

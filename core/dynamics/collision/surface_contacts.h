@@ -46,6 +46,16 @@ class SurfaceContacts {
     std::sort(near_.begin(), near_.end());
   }
 
+  // The triangles near the shape, and then the peaks and ridges of each.
+  template <typename OnTriangle, typename OnPeak, typename OnRidge>
+  void visit_near(const OnTriangle& on_triangle, const OnPeak& on_peak, const OnRidge& on_ridge) const {
+    for (const int t : near_) on_triangle(t);
+    for (const int t : near_) {
+      for (const int peak : surface_.peaks_of[index_of(t)]) on_peak(peak);
+      for (const int ridge : surface_.ridges_of[index_of(t)]) on_ridge(ridge);
+    }
+  }
+
   void add(const Vec3& normal, const Vec3& foot, double gap, std::uint32_t feature, int patch) {
     if (gap > reach_) return;
     touches_.push_back({normal, foot, gap, feature, patch});

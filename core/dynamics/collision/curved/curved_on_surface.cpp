@@ -28,11 +28,7 @@ class CurvedOnSurface : SurfaceContacts {
   const std::vector<SurfaceTouch>& find(double reach) {
     const Vec3 half(solid_.reach(Vec3::UnitX()), solid_.reach(Vec3::UnitY()), solid_.reach(Vec3::UnitZ()));
     look_around(solid_.centre - half, solid_.centre + half, reach);
-    for (const int t : near_) points_on(t);
-    for (const int t : near_) {
-      for (const int peak : surface_.peaks_of[index_of(t)]) on_peak(peak);
-      for (const int ridge : surface_.ridges_of[index_of(t)]) on_ridge(ridge);
-    }
+    visit_near([&](int t) { points_on(t); }, [&](int peak) { on_peak(peak); }, [&](int ridge) { on_ridge(ridge); });
     return touches_;
   }
 

@@ -42,7 +42,7 @@ bool is_over(const FlatFace& face, Vec3& p, double near, const AreaPoints& to, s
   return true;
 }
 
-// Where the rim crosses a side of the face, and the point of the rim that lies furthest inside of it.
+// Adds the points where the rim crosses a side of the face, and that of the rim which lies furthest inside of it.
 void add_crossings(const Disc& upper, const FlatFace& lower, std::size_t k, const AreaPoints& to) {
   const SidePlane side = side_of(lower, k, to.n);
   const Vec3 beside = side.out - side.out.dot(upper.out) * upper.out;
@@ -83,8 +83,8 @@ void add_part(const Line& line, const PartOfLine& part, const AreaPoints& to, co
 
 bool is_inside(const Disc& disc, const Vec3& in_plane) { return (in_plane - disc.centre).norm() <= disc.radius; }
 
-// Where two rims cross, seen along n, and the points of each that lie furthest inside of the other. Returns false if
-// they do not cross.
+// Adds the points where two rims cross, seen along n, and those of each that lie furthest inside of the other. Returns
+// false if they do not cross.
 bool add_lens(const Disc& upper, const Disc& lower, const AreaPoints& to) {
   const Vec3 line = along_onto(upper.centre, to.n, lower.centre, lower.out) - lower.centre;
   const double distance = line.norm(), R = lower.radius, r = upper.radius;

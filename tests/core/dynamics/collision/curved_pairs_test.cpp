@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "core/dynamics/collision/narrow_phase.h"
+#include "tests/core/dynamics/collision/random_poses.h"
 
 using namespace rigor;
 
@@ -16,17 +16,7 @@ BOOST_AUTO_TEST_SUITE(core_dynamics_collision_curved_pairs)
 
 namespace {
 
-class CurvedRandom {
- public:
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
-  Mat3 turn() {
-    return Quat(between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)).normalized().toRotationMatrix();
-  }
-
- private:
-  std::mt19937 random_{11};
-};
+;
 
 std::vector<Shape> curved_shapes() {
   return {Cylinder{0.3, 0.7}, Cylinder{0.5, 0.06}, Cylinder{0.06, 1.2}, Ellipsoid{{0.2, 0.35, 0.5}},
@@ -80,7 +70,7 @@ double separation_by_search(const Shape& a, const Pose& at_a, const Shape& b, co
 
 // Apart, and overlapping by up to a hundredth of the smaller inradius: contacts of moving bodies lie between.
 BOOST_AUTO_TEST_CASE(gaps_and_normals_are_those_of_a_search_over_directions) {
-  CurvedRandom random;
+  test::RandomPoses random(11);
   Manifold points;
   for (const Shape& a : curved_shapes()) {
     for (const Shape& b : all_shapes()) {
@@ -110,7 +100,7 @@ BOOST_AUTO_TEST_CASE(gaps_and_normals_are_those_of_a_search_over_directions) {
 
 // A smooth pair is exact: moved by its gap along its normal it touches, and the normal is that of both surfaces.
 BOOST_AUTO_TEST_CASE(ellipsoids_are_exact_to_rounding) {
-  CurvedRandom random;
+  test::RandomPoses random(11);
   Manifold points;
   for (const Shape& a : {Shape(Ellipsoid{{0.2, 0.35, 0.5}}), Shape(Ellipsoid{{0.05, 0.4, 0.5}})}) {
     for (const Shape& b : all_shapes()) {
@@ -135,7 +125,7 @@ BOOST_AUTO_TEST_CASE(ellipsoids_are_exact_to_rounding) {
 }
 
 BOOST_AUTO_TEST_CASE(swapped_and_turned_pairs_touch_alike) {
-  CurvedRandom random;
+  test::RandomPoses random(11);
   Manifold points, others;
   for (const Shape& a : curved_shapes()) {
     for (const Shape& b : all_shapes()) {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <limits>
-#include <random>
 
 #include "cases/metrics/measures/convex_distance.h"
 #include "core/dynamics/collision/narrow_phase.h"
+#include "tests/core/dynamics/collision/random_poses.h"
 
 using namespace rigor;
 
@@ -15,17 +15,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // m, of bodies of a metre
 
-class Random {
- public:
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
-  Mat3 turn() {
-    return Quat(between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)).normalized().toRotationMatrix();
-  }
-
- private:
-  std::mt19937 random_{7};
-};
+;
 
 double least_gap(const Shape& a, const Pose& at_a, const Shape& b, const Pose& at_b) {
   Manifold points;
@@ -56,7 +46,7 @@ std::vector<Shape> shapes() {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(flat_triangles_touch_as_a_plane_does) {
-  Random random;
+  test::RandomPoses random(7);
   const Shape field = flat_ground(17), plane = Plane{Vec3::UnitZ(), 0};
   for (const Shape& shape : shapes()) {
     for (int k = 0; k < 200; ++k) {
@@ -90,7 +80,7 @@ BOOST_AUTO_TEST_CASE(seams_have_no_contacts_of_their_own) {
 
 // The distance from a box is in closed form for balls and capsules.
 BOOST_AUTO_TEST_CASE(round_shapes_are_as_far_from_a_mesh_of_a_box_as_from_the_box) {
-  Random random;
+  test::RandomPoses random(7);
   const Vec3 size(0.8, 0.5, 0.6);
   const Shape mesh = mesh_of_box(size), box = Box{size};
   int apart = 0;
@@ -110,7 +100,7 @@ BOOST_AUTO_TEST_CASE(round_shapes_are_as_far_from_a_mesh_of_a_box_as_from_the_bo
 // their distance. It is none where a corner is nearest to a corner or to an edge; such a pair is found once it
 // overlaps.
 BOOST_AUTO_TEST_CASE(polyhedra_meet_a_mesh_of_a_box_as_they_meet_the_box) {
-  Random random;
+  test::RandomPoses random(7);
   const Vec3 size(0.8, 0.5, 0.6);
   const Shape mesh = mesh_of_box(size), box = Box{size};
   // m; and what a normal does that takes the place of one up to a hundredth of a radian aside
@@ -138,7 +128,7 @@ BOOST_AUTO_TEST_CASE(polyhedra_meet_a_mesh_of_a_box_as_they_meet_the_box) {
 // Their distance from the box is known to the last digits (curved_pairs_test.cpp).
 BOOST_AUTO_TEST_CASE(curved_shapes_are_as_far_from_a_mesh_of_a_box_as_from_the_box) {
   constexpr double kNear = 1e-3;
-  Random random;
+  test::RandomPoses random(7);
   const Vec3 size(0.8, 0.5, 0.6);
   const Shape mesh = mesh_of_box(size), box = Box{size};
   for (const Shape& shape :

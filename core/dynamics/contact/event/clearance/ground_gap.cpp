@@ -12,8 +12,6 @@
 namespace rigor {
 namespace {
 
-std::size_t entry(int i) { return static_cast<std::size_t>(i); }
-
 // Outwards at a point of a surface: the mean of the normals around it, weighed by the angles of the triangles
 // (Baerentzen, Aanaes, Signed distance computation using the angle weighted pseudonormal, 2005). A point that is
 // nearest to this one is outside if it lies along this direction.
@@ -25,14 +23,14 @@ Vec3 pseudonormal(const TriangleSurface& surface, const Vec3& at) {
   surface.find_near(at - margin, at + margin, near);
   Vec3 sum = Vec3::Zero();
   for (const int t : near) {
-    const TriangleSurface::Triangle& triangle = surface.triangles[entry(t)];
+    const TriangleSurface::Triangle& triangle = surface.triangles[t];
     if ((surface.nearest_on(triangle, at) - at).norm() > near_by) continue;
     double angle = std::numbers::pi;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& corner = surface.points[entry(triangle.corners[k])];
+      const Vec3& corner = surface.points[triangle.corners[k]];
       if ((corner - at).norm() > near_by) continue;
-      const Vec3 u = surface.points[entry(triangle.corners[(k + 1) % 3])] - corner,
-                 v = surface.points[entry(triangle.corners[(k + 2) % 3])] - corner;
+      const Vec3 u = surface.points[triangle.corners[(k + 1) % 3]] - corner,
+                 v = surface.points[triangle.corners[(k + 2) % 3]] - corner;
       angle = portable::atan2(u.cross(v).norm(), u.dot(v));
     }
     sum += angle * triangle.normal;
@@ -123,9 +121,9 @@ struct GapOf {
     std::vector<int> near;
     surface.find_near(at.p - Vec3::Constant(size), at.p + Vec3::Constant(size), near);
     for (const int t : near) {
-      for (const int r : surface.ridges_of[entry(t)]) {
-        const Vec3& from = surface.points[entry(surface.ridges[entry(r)].from)];
-        visit(from, surface.points[entry(surface.ridges[entry(r)].to)] - from);
+      for (const int r : surface.ridges_of[t]) {
+        const Vec3& from = surface.points[surface.ridges[r].from];
+        visit(from, surface.points[surface.ridges[r].to] - from);
       }
     }
   }

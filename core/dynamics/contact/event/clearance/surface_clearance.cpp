@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace rigor {
-namespace {
-
-std::size_t place(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 const TriangleSurface* surface_of(const Collider& collider) {
   const SurfaceShape* on = surface_in(collider.shape);
   return on ? on->surface.get() : nullptr;
@@ -31,14 +25,14 @@ SurfaceClearance::SurfaceClearance(const Collider& body, const Collider& surface
 bool SurfaceClearance::stays_off(const std::vector<int>& touched, const std::vector<Vec3>& normals,
                                  bool is_near) const {
   return std::all_of(near_.begin(), near_.end(), [&](int t) {
-    if (std::find(touched.begin(), touched.end(), surface_.triangles[place(t)].patch) != touched.end()) return true;
+    if (std::find(touched.begin(), touched.end(), surface_.triangles[t].patch) != touched.end()) return true;
     if (is_clear(t, normals, way_.from, 0.5 * way_.h) && is_clear(t, normals, way_.to, -0.5 * way_.h)) return true;
     return is_near && longest_move() <= std::min(0.25 * least_height(t), 0.5 * body_.inradius);
   });
 }
 
 Vec3 SurfaceClearance::corner(int triangle, int k) const {
-  return pose_.p + pose_.R * surface_.points[place(surface_.triangles[place(triangle)].corners[place(k)])];
+  return pose_.p + pose_.R * surface_.points[surface_.triangles[triangle].corners[k]];
 }
 
 Vec3 SurfaceClearance::centre(BodyColumns state) const { return state.position(body_.body); }
@@ -51,7 +45,7 @@ bool SurfaceClearance::is_clear(int triangle, const std::vector<Vec3>& normals, 
     return -reach_at_most(body_, state, -n, way_.bend, 0) >= top &&
            -reach_at_most(body_, state, -n, way_.bend, t) >= top;
   };
-  const TriangleSurface::Triangle& at = surface_.triangles[place(triangle)];
+  const TriangleSurface::Triangle& at = surface_.triangles[triangle];
   if (separates(pose_.R * at.normal)) return true;
   const Vec3 nearest = surface_.nearest_on(at, pose_.R.transpose() * (centre(state) - pose_.p)),
              line = centre(state) - pose_.p - pose_.R * nearest;

@@ -12,8 +12,6 @@ using Kind = ContactFeature::Kind;
 
 constexpr double kInTriangle = 1e-9;  // of its size: a point on the seam of two triangles is in one at least
 
-std::size_t number(int i) { return static_cast<std::size_t>(i); }
-
 // The triangles around one point of a surface.
 class NearPoint {
  public:
@@ -26,7 +24,7 @@ class NearPoint {
   NearPoint(const TriangleSurface& surface, const Vec3& at)
       : NearPoint(surface, at, kOnEdge * surface.bounding_radius) {
     std::erase_if(triangles_, [&](int t) {
-      const double distance = (surface.nearest_on(surface.triangles[number(t)], at) - at).norm();
+      const double distance = (surface.nearest_on(surface.triangles[t], at) - at).norm();
       return !(distance <= kOnEdge * surface.bounding_radius);
     });
   }
@@ -36,15 +34,15 @@ class NearPoint {
   template <typename Visit>
   void for_each_ridge(const Visit& visit) const {
     for (const int t : triangles_)
-      for (const int ridge : surface_.ridges_of[number(t)]) visit(ridge, surface_.ridges[number(ridge)]);
+      for (const int ridge : surface_.ridges_of[t]) visit(ridge, surface_.ridges[ridge]);
   }
 
   // The number of the nearest corner that ridges end at, within `most` [m] of p; or -1.
   int nearest_peak(const Vec3& p, double most) const {
     int nearest = -1;
     for (const int t : triangles_) {
-      for (const int peak : surface_.peaks_of[number(t)]) {
-        const double distance = (surface_.points[number(surface_.peaks[number(peak)].point)] - p).norm();
+      for (const int peak : surface_.peaks_of[t]) {
+        const double distance = (surface_.points[surface_.peaks[peak].point] - p).norm();
         if (distance <= most) most = distance, nearest = peak;
       }
     }
@@ -57,25 +55,23 @@ class NearPoint {
 };
 
 ContactFeature plane_of(const TriangleSurface& surface, int t) {
-  const TriangleSurface::Triangle& triangle = surface.triangles[number(t)];
-  return {
-      .kind = Kind::plane, .at = surface.points[number(triangle.corners[0])], .direction = triangle.normal, .place = t};
+  const TriangleSurface::Triangle& triangle = surface.triangles[t];
+  return {.kind = Kind::plane, .at = surface.points[triangle.corners[0]], .direction = triangle.normal, .place = t};
 }
 
 ContactFeature line_of(const TriangleSurface& surface, int ridge, const TriangleSurface::Ridge& at) {
-  const Vec3& from = surface.points[number(at.from)];
-  return {
-      .kind = Kind::line, .at = from, .direction = (surface.points[number(at.to)] - from).normalized(), .place = ridge};
+  const Vec3& from = surface.points[at.from];
+  return {.kind = Kind::line, .at = from, .direction = (surface.points[at.to] - from).normalized(), .place = ridge};
 }
 
 ContactFeature point_of(const TriangleSurface& surface, int peak) {
-  return {.at = surface.points[number(surface.peaks[number(peak)].point)], .is_vertex = true, .place = peak};
+  return {.at = surface.points[surface.peaks[peak].point], .is_vertex = true, .place = peak};
 }
 
 // m, along the ridge from its start, and its length.
 std::pair<double, double> place_along(const TriangleSurface& surface, const TriangleSurface::Ridge& ridge,
                                       const Vec3& p) {
-  const Vec3 &from = surface.points[number(ridge.from)], line = surface.points[number(ridge.to)] - from;
+  const Vec3 &from = surface.points[ridge.from], line = surface.points[ridge.to] - from;
   const double length = line.norm();
   return {line.dot(p - from) / length, length};
 }
@@ -83,11 +79,11 @@ std::pair<double, double> place_along(const TriangleSurface& surface, const Tria
 // Whether a body can pass over a triangle's edge into the air. Beyond a reentrant edge the next triangle stops it.
 bool is_open_edge(const TriangleSurface& surface, const TriangleSurface::Triangle& triangle, std::size_t k) {
   if (triangle.beside[k] < 0) return true;
-  const TriangleSurface::Triangle& beside = surface.triangles[number(triangle.beside[k])];
+  const TriangleSurface::Triangle& beside = surface.triangles[triangle.beside[k]];
   const auto far = std::find_if(beside.corners.begin(), beside.corners.end(), [&](int corner) {
     return std::find(triangle.corners.begin(), triangle.corners.end(), corner) == triangle.corners.end();
   });
-  const Vec3 line = surface.points[number(*far)] - surface.points[number(triangle.corners[k])];
+  const Vec3 line = surface.points[*far] - surface.points[triangle.corners[k]];
   return beside.patch != triangle.patch && triangle.normal.dot(line) < 0;
 }
 
@@ -98,12 +94,12 @@ double inside_patch(const TriangleSurface& surface, int patch, const Vec3& p, do
   bool is_nearest_end = false;
   double least = reach, side_of_nearest = 1;
   for (const int t : near.triangles()) {
-    const TriangleSurface::Triangle& triangle = surface.triangles[number(t)];
+    const TriangleSurface::Triangle& triangle = surface.triangles[t];
     if (triangle.patch != patch) continue;
     bool is_in_triangle = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &from = surface.points[number(triangle.corners[k])],
-                 line = surface.points[number(triangle.corners[(k + 1) % 3])] - from;
+      const Vec3 &from = surface.points[triangle.corners[k]],
+                 line = surface.points[triangle.corners[(k + 1) % 3]] - from;
       const double side = triangle.normal.dot(line.cross(p - from));  // left of the edge is inside
       is_in_triangle = is_in_triangle && side >= -kInTriangle * line.squaredNorm();
       if (!is_open_edge(surface, triangle, k)) continue;
@@ -117,7 +113,7 @@ double inside_patch(const TriangleSurface& surface, int patch, const Vec3& p, do
     }
     is_inside = is_inside || is_in_triangle;
   }
-  // Beside the corner of a region that is not convex, one of its edges may have a point of the region on its right.
+  // At a corner of a region that is not convex, a point inside may lie on the right of one edge.
   const bool is_left = side_of_nearest >= 0 || (is_nearest_end && is_inside);
   return is_left ? least : -least;
 }
@@ -126,7 +122,7 @@ double inside_patch(const TriangleSurface& surface, int patch, const Vec3& p, do
 
 void find_patches_at(const TriangleSurface& surface, const Vec3& at, std::vector<int>& out) {
   const NearPoint near(surface, at);
-  for (const int t : near.triangles()) out.push_back(surface.triangles[number(t)].patch);
+  for (const int t : near.triangles()) out.push_back(surface.triangles[t].patch);
 }
 
 Choices choices_on_surface(const TriangleSurface& surface, const Vec3& at, const Vec3& normal) {
@@ -136,7 +132,7 @@ Choices choices_on_surface(const TriangleSurface& surface, const Vec3& at, const
   choices.point.at = at;
   double least = std::numeric_limits<double>::infinity();
   for (const int t : near.triangles()) {
-    const TriangleSurface::Triangle& triangle = surface.triangles[number(t)];
+    const TriangleSurface::Triangle& triangle = surface.triangles[t];
     if (!(triangle.normal.dot(normal) > 1 - kAligned)) continue;
     const double distance = (surface.nearest_on(triangle, at) - at).norm();
     if (distance < least) least = distance, choices.plane = plane_of(surface, t);
@@ -163,13 +159,12 @@ Choices surface_beside_ball(const TriangleSurface& surface, const Vec3& at, cons
   int nearest = -1;
   double least = std::numeric_limits<double>::infinity();
   for (const int t : near.triangles()) {
-    const double distance = (surface.nearest_on(surface.triangles[number(t)], centre) - centre).norm();
+    const double distance = (surface.nearest_on(surface.triangles[t], centre) - centre).norm();
     if (distance < least) least = distance, nearest = t;
   }
   if (nearest < 0) return choices;
-  const TriangleSurface::Triangle& triangle = surface.triangles[number(nearest)];
-  const Vec3 foot =
-      centre - triangle.normal * triangle.normal.dot(centre - surface.points[number(triangle.corners[0])]);
+  const TriangleSurface::Triangle& triangle = surface.triangles[nearest];
+  const Vec3 foot = centre - triangle.normal * triangle.normal.dot(centre - surface.points[triangle.corners[0]]);
   if (inside_patch(surface, triangle.patch, foot, radius) > kAtEnd * radius) {
     choices.plane = plane_of(surface, nearest);
     return choices;
@@ -198,11 +193,11 @@ double distance_from_end(const TriangleSurface& surface, const ContactFeature& o
   if (own.place < 0) return kEverywhere;
   if (own.kind == Kind::plane) {
     if (!other.is_vertex) return kEverywhere;
-    return inside_patch(surface, surface.triangles[number(own.place)].patch,
-                        q - own.direction * own.direction.dot(q - own.at), reach);
+    return inside_patch(surface, surface.triangles[own.place].patch, q - own.direction * own.direction.dot(q - own.at),
+                        reach);
   }
   if (own.kind == Kind::line) {
-    const TriangleSurface::Ridge& ridge = surface.ridges[number(own.place)];
+    const TriangleSurface::Ridge& ridge = surface.ridges[own.place];
     const auto [along, length] = place_along(surface, ridge, q);
     const double within = std::min(along, length - along);
     // Beside a ridge the ball's centre lies in front of both triangles' edges.
@@ -211,7 +206,7 @@ double distance_from_end(const TriangleSurface& surface, const ContactFeature& o
   }
   if (!is_beside_round) return kEverywhere;
   double least = kEverywhere;
-  for (const Vec3& edge : surface.peaks[number(own.place)].edges) least = std::min(least, -edge.dot(q - own.at));
+  for (const Vec3& edge : surface.peaks[own.place].edges) least = std::min(least, -edge.dot(q - own.at));
   return least;
 }
 

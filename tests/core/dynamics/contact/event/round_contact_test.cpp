@@ -5,7 +5,7 @@
 
 #include "core/dynamics/contact/event/features/contact_kinematics.h"
 #include "core/dynamics/model/energy.h"
-#include "tests/core/dynamics/contact/contact_runs.h"
+#include "tests/core/dynamics/contact/event/event_ends.h"
 
 using namespace rigor;
 using namespace rigor::test;
@@ -31,20 +31,6 @@ Scene two_bodies(const Body& above, const Body& below, const Law& law) {
   scene.bodies = {above, below};
   scene.contact_default = {law.first, law.second};
   return scene;
-}
-
-BodyTable end_of(const Scene& scene, const char* integrator, double dt, int steps) {
-  ContactRun run(scene, "event", integrator);
-  run.run(dt, steps);
-  BOOST_TEST(run.solver_warning() == "");
-  BOOST_TEST(!run.reduced_order());
-  return BodyTable(run.state());
-}
-
-// m and rad, of the first body.
-double apart(const BodyTable& a, const BodyTable& b) {
-  return (a.columns().position(0) - b.columns().position(0)).norm() +
-         angle_between(a.columns().orientation(0), b.columns().orientation(0));
 }
 
 Body thrown(const Shape& shape, const Vec3& position) {
@@ -112,7 +98,7 @@ struct RollingInBody {
 };
 
 double error_of_rattleback(const char* integrator, double t, int steps, const RollingInBody::State& due) {
-  const RollingInBody::State is = RollingInBody::seen(end_of(Rattleback().scene(), integrator, t / steps, steps));
+  const RollingInBody::State is = RollingInBody::seen(event_end(Rattleback().scene(), integrator, t / steps, steps));
   return (is[0] - due[0]).norm() + 0.1 * (is[1] - due[1]).norm();
 }
 
@@ -123,13 +109,16 @@ BOOST_AUTO_TEST_CASE(an_ellipsoid_of_equal_half_axes_moves_as_the_ball_does) {
   for (const Law& law : kLaws) {
     const Body ball = thrown(Sphere{0.2}, {0, 0, 0.5}), ellipsoid = thrown(round, {0, 0, 0.5});
     BOOST_TEST_CONTEXT("e = " << law.first << ", mu = " << law.second) {
-      BOOST_TEST(apart(end_of(on_floor({ball}, {law.first, law.second}), "dormand-prince", 1.0 / 60, 60),
-                       end_of(on_floor({ellipsoid}, {law.first, law.second}), "dormand-prince", 1.0 / 60, 60)) < 1e-12);
+      BOOST_TEST(first_body_apart(event_end(on_floor({ball}, {law.first, law.second}), "dormand-prince", 1.0 / 60, 60),
+                                  event_end(on_floor({ellipsoid}, {law.first, law.second}), "dormand-prince", 1.0 / 60,
+                                            60)) < 1e-12);
       const Body below = fixed_body(Sphere{0.5}, {0.02, 0, -0.3}),
                  round_below = fixed_body(Ellipsoid{{0.5, 0.5, 0.5}}, {0.02, 0, -0.3});
-      const BodyTable due = end_of(two_bodies(ball, below, law), "dormand-prince", 1.0 / 60, 36);
-      BOOST_TEST(apart(due, end_of(two_bodies(ellipsoid, below, law), "dormand-prince", 1.0 / 60, 36)) < 1e-12);
-      BOOST_TEST(apart(due, end_of(two_bodies(ball, round_below, law), "dormand-prince", 1.0 / 60, 36)) < 1e-12);
+      const BodyTable due = event_end(two_bodies(ball, below, law), "dormand-prince", 1.0 / 60, 36);
+      BOOST_TEST(first_body_apart(due, event_end(two_bodies(ellipsoid, below, law), "dormand-prince", 1.0 / 60, 36)) <
+                 1e-12);
+      BOOST_TEST(first_body_apart(due, event_end(two_bodies(ball, round_below, law), "dormand-prince", 1.0 / 60, 36)) <
+                 1e-12);
     }
   }
 }
@@ -169,16 +158,17 @@ BOOST_AUTO_TEST_CASE(a_ball_moves_over_a_cylinder_as_over_the_shapes_that_it_is_
   for (const Law& law : kLaws) {
     const Body ball = thrown(Sphere{0.1}, {0.02, 0, 0.4});
     BOOST_TEST_CONTEXT("e = " << law.first << ", mu = " << law.second) {
-      BOOST_TEST(apart(end_of(two_bodies(ball, fixed_body(Capsule{0.2, 3}, Vec3::Zero(), level), law), "dormand-prince",
-                              1.0 / 60, 24),
-                       end_of(two_bodies(ball, fixed_body(Cylinder{0.2, 3}, Vec3::Zero(), level), law),
-                              "dormand-prince", 1.0 / 60, 24)) < 1e-12);
+      BOOST_TEST(first_body_apart(event_end(two_bodies(ball, fixed_body(Capsule{0.2, 3}, Vec3::Zero(), level), law),
+                                            "dormand-prince", 1.0 / 60, 24),
+                                  event_end(two_bodies(ball, fixed_body(Cylinder{0.2, 3}, Vec3::Zero(), level), law),
+                                            "dormand-prince", 1.0 / 60, 24)) < 1e-12);
       Body straight = ball;
       straight.velocity = {1, 0, 0}, straight.angular_velocity = {0, 8, 0};
       const Body box = fixed_body(Box{{0.6, 0.6, 0.4}}, Vec3::Zero()),
                  cylinder = fixed_body(Cylinder{0.3, 0.4}, Vec3::Zero());
-      BOOST_TEST(apart(end_of(two_bodies(straight, box, law), "dormand-prince", 1.0 / 60, 36),
-                       end_of(two_bodies(straight, cylinder, law), "dormand-prince", 1.0 / 60, 36)) < 1e-10);
+      BOOST_TEST(first_body_apart(event_end(two_bodies(straight, box, law), "dormand-prince", 1.0 / 60, 36),
+                                  event_end(two_bodies(straight, cylinder, law), "dormand-prince", 1.0 / 60, 36)) <
+                 1e-10);
     }
   }
 }
