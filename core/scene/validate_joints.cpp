@@ -159,10 +159,9 @@ Fault fault_of_angles(int joint, const char* key, const std::vector<JointTerm>& 
   const auto fault = [&](const char* of, int k) -> Fault {
     const Joint& one = scene.joints[k];
     if (!turns(one) || middle_of_turn(one)) return {};
-    return SceneFault{of,
-                      fmt::format("{} turns without limits, so its part of the sum is known up to whole turns only; "
-                                  "allowed: lower and upper less than a turn apart",
-                                  scene.joint_name(static_cast<std::size_t>(k)))};
+    return SceneFault{of, fmt::format("{} may turn round, so its part of the sum is known up to whole turns only; "
+                                      "allowed: lower and upper less than a turn apart",
+                                      scene.joint_name(static_cast<std::size_t>(k)))};
   };
   if (const Fault first = fault("joint", joint)) return first;
   for (const JointTerm& term : terms)

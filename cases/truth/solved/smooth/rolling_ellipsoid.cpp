@@ -1,11 +1,12 @@
 // An ellipsoid that rolls on a plane without slipping: the rattleback, or wobblestone. With r from its centre to the
-// contact point, n the plane's normal, g the gravity against it and v = r x w, in two forms that share no term:
+// contact point, n the plane's normal, g the gravity against it and v = r x w, in two forms:
 //   body rates:  (I - m [r]²) w' = -w x I w + m r x (r' x w + g n)                                     about the centre
 //   momentum:    M' = m g r x n - m r' x v,  M = (I - m [r]²) w                                 about the contact point
 // (Garcia and Hubbard, Spin reversal of the rattleback: theory and experiment, Proc. R. Soc. A 418, 1988; Goldstein,
 // Classical Mechanics, 3rd ed., section 1.2, for the momentum about a moving point). The ellipsoid x = D² u/|D u| has
 // its outward normal along u, with D the half-axes. The first form's distance from the second is the truth's error.
-// It ends where the plane would have to pull, or where friction would leave its cone.
+// Both share r and r', which the tests check: the contact stays closed and at rest, and the energy is kept. The truth
+// ends where the plane would have to pull, or where friction would leave its cone.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -108,7 +108,7 @@ const std::vector<Refusal> kBadJoints = {
     {kMotor + "joint = 'kne'\ntorque = 1", "15:9: scene.motor.joint: ", {"no joint 'kne'", "'knee'"}},
     {kGeared + "[[scene.motor]]\njoint = 'ankle'\nplus = 'knee'\nratio = 1\nkp = 1\ntarget = 0",
      "22:8: scene.motor.plus: ",
-     {"turns without limits", "less than a turn apart"}},
+     {"may turn round", "less than a turn apart"}},
     {kGeared + "[[scene.motor]]\njoint = 'ankle'\nplus = 'knee'\nratio = 1\nforce = 2",
      "22:8: scene.motor.plus: ",
      {"for servos"}},
