@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "generated/tests/places.h"
+
 BOOST_AUTO_TEST_SUITE(pages)
 
 namespace {

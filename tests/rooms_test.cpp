@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "generated/tests/places.h"
+
 BOOST_AUTO_TEST_SUITE(rooms)
 
 namespace {

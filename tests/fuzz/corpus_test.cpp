@@ -11,6 +11,7 @@
 #include <iterator>
 #include <random>
 
+#include "generated/tests/places.h"
 #include "tests/fuzz/targets.h"
 
 BOOST_AUTO_TEST_SUITE(fuzz_corpus)

@@ -4,6 +4,7 @@
 #include <dart/utils/sdf/SdfParser.hpp>
 #include <dart/utils/urdf/DartLoader.hpp>
 
+#include "generated/tests/places.h"
 #include "tests/adapters/loaded_alike.h"
 #include "tests/cases/import/imported.h"
 

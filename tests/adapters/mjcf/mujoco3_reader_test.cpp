@@ -6,6 +6,7 @@
 
 #include "adapters/mjcf/mjcf_import.h"
 #include "core/base/error.h"
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 
 using namespace rigor;

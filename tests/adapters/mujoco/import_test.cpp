@@ -9,6 +9,7 @@
 
 #include "adapters/models.h"
 #include "adapters/mujoco/mujoco_library.h"
+#include "generated/tests/places.h"
 #include "tests/adapters/loaded_alike.h"
 #include "tests/cases/import/imported.h"
 #include "tests/cases/judged.h"

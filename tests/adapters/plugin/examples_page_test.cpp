@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 
 using namespace rigor;

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 
 using namespace rigor;

@@ -12,6 +12,7 @@
 #include "cases/runner/process_pool.h"
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 #include "tests/saved_runs.h"
 #include "tests/scenes.h"

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/engine/engine.h"
 #include "core/engine/engine_failure.h"
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 #include "tests/scenes.h"
 

@@ -15,6 +15,7 @@
 #include "cases/case/suite.h"
 #include "core/engine/engine.h"
 #include "core/scene/toml/writing/scene_writer.h"
+#include "generated/tests/places.h"
 #include "tests/cases/vocabulary.h"
 #include "tests/folder.h"
 #include "tests/scenes.h"

@@ -7,6 +7,7 @@
 
 #include "core/scene/joint_types.h"
 #include "core/scene/shape_types.h"
+#include "generated/tests/places.h"
 
 using namespace rigor;
 

@@ -9,6 +9,7 @@
 #include "adapters/plugin/plugins.h"
 #include "cases/analysis/mistakes/finder.h"
 #include "cases/report/wording/mistakes.h"
+#include "generated/tests/places.h"
 #include "tests/cases/vocabulary.h"
 
 using namespace rigor;

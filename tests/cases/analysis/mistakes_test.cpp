@@ -20,6 +20,7 @@
 #include "cases/analysis/mistakes/finder.h"
 #include "cases/analysis/mistakes/motions.h"
 #include "cases/analysis/mistakes/probes.h"
+#include "generated/tests/places.h"
 #include "tests/cases/vocabulary.h"
 
 using namespace rigor;

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 
 namespace rigor::test {

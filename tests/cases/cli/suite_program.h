@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 
 namespace rigor::test {

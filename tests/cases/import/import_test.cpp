@@ -5,6 +5,7 @@
 
 #include "cases/truth/truth.h"
 #include "core/scene/validate.h"
+#include "generated/tests/places.h"
 #include "tests/cases/import/imported.h"
 
 using namespace rigor;
@@ -217,8 +218,8 @@ BOOST_AUTO_TEST_CASE(a_mesh_of_a_package_that_is_not_here_is_a_loss_of_physics) 
       "ixz='0' iyz='0'/></inertial><collision><geometry>\n<mesh filename='package://else/a.stl'/></geometry>"
       "</collision></link></robot>");
   BOOST_TEST_REQUIRE(lost.size() == 1u);
-  BOOST_TEST(
-      some_has(lost, "r.urdf:2: link 'a': <mesh>: a mesh of another package: no folder above the model is the package 'else'"));
+  BOOST_TEST(some_has(
+      lost, "r.urdf:2: link 'a': <mesh>: a mesh of another package: no folder above the model is the package 'else'"));
 }
 
 // Dummy roots: a vehicle of two wheels is free, an arm is bolted down. The import says which it took.

@@ -13,6 +13,7 @@
 #include "adapters/engines.h"
 #include "cases/analysis/repeats/recorded_states.h"
 #include "core/base/json.h"
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 #include "tests/scenes.h"
 

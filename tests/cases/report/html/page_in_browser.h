@@ -10,6 +10,7 @@
 #include <iterator>
 #include <string>
 
+#include "generated/tests/places.h"
 #include "tests/folder.h"
 
 namespace rigor::test {

@@ -7,6 +7,7 @@
 #include "cases/metrics/verdict.h"
 #include "cases/results/results.h"
 #include "core/scene/shape_types.h"
+#include "generated/tests/places.h"
 
 using namespace rigor;
 

@@ -4,6 +4,7 @@
 
 #include "cases/gates/gates.h"
 #include "cases/report/reports.h"
+#include "generated/tests/places.h"
 #include "tests/cases/limit_as.h"
 #include "tests/cases/report/sample_results.h"
 #include "tests/folder.h"

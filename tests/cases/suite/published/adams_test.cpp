@@ -20,6 +20,7 @@
 #include "cases/metrics/measures/joints/joint_reactions.h"
 #include "cases/truth/truth.h"
 #include "core/dynamics/model/system.h"
+#include "generated/tests/places.h"
 #include "tests/cases/judged.h"
 #include "tests/cases/suite/published/adams_tables.h"
 #include "tests/core/dynamics/joints/jointed_run.h"

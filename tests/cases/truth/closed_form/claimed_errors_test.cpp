@@ -12,6 +12,7 @@
 #include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 #include "core/base/error.h"
+#include "generated/tests/places.h"
 #include "tests/cases/truth/closed_form/smooth/smooth_scenes.h"
 #include "tests/cases/truth/closed_form/spoilt_scenes.h"
 #include "tests/cases/vocabulary.h"
