@@ -96,7 +96,9 @@ inline Vec3 deepest_direction(const Disc& disc, const Vec3& n) {
   return length > kUpright ? Vec3(-beside / length) : disc.along;
 }
 
-inline bool lies_flat(const Disc& disc, const Vec3& n) { return disc.out.cross(n).norm() < kNearlyFlat; }
+inline bool lies_flat(const Disc& disc, const Vec3& n, double nearly = kNearlyFlat) {
+  return disc.out.cross(n).norm() < nearly;
+}
 
 struct RimPoint {
   Vec3 at;  // m
@@ -109,12 +111,13 @@ struct RimPoint {
 class RimPoints {
  public:
   static constexpr std::uint32_t kDeepest = 4;  // the feature of that one, modulo 8
-  RimPoints(const Disc& disc, const Vec3& n) {
+  // `nearly`: the sine of the tilt up to which the end lies flat.
+  RimPoints(const Disc& disc, const Vec3& n, double nearly = kNearlyFlat) {
     constexpr double kDeeper = 1e-6;  // of the radius
-    const Vec3 down = deepest_direction(disc, n), along = lies_flat(disc, n) ? disc.along : down,
-               aside = disc.axis.cross(along);
+    const bool is_flat = lies_flat(disc, n, nearly);
+    const Vec3 down = deepest_direction(disc, n), along = is_flat ? disc.along : down, aside = disc.axis.cross(along);
     const double lowest = std::max(std::abs(n.dot(along)), std::abs(n.dot(aside)));
-    const bool has_deepest = lies_flat(disc, n) && -n.dot(down) > lowest + kDeeper;
+    const bool has_deepest = is_flat && -n.dot(down) > lowest + kDeeper;
     const std::uint32_t first = disc.is_top() ? 8 : 0;
     const auto add = [&](const Vec3& direction, std::uint32_t feature) {
       points_[static_cast<std::size_t>(count_++)] = {disc.centre + disc.radius * direction, first + feature};

@@ -113,7 +113,7 @@ class EventStepper : public ContactStepper {
 
   std::string solver_warning() const override { return solver_warning_; }
   void archive_state(StateArchive& archive) override {
-    archive(saved_, crowded_from_, are_many_, longest_, last_damping_, is_smooth_, solver_warning_);
+    archive(saved_, crowded_from_, flat_from_, are_many_, longest_, last_damping_, is_smooth_, solver_warning_);
     archive.resized(ties_);
     for (ContactTie& tie : ties_) archive(tie.time, tie.pairs);
     archive(contact_points_, persistent_contact_, crowded_);
@@ -124,10 +124,12 @@ class EventStepper : public ContactStepper {
   void watch_ties() override { impacts_.watch_ties(); }
   std::vector<ContactTie> ties() const override { return ties_; }
   std::optional<ReducedOrder> reduced_order() const override {
-    if (!crowded_from_) return {};
+    constexpr const char* kOnPoints = "with the flat end of a cylinder on four points of its rim";
+    if (!crowded_from_) return flat_from_ ? std::optional(ReducedOrder{*flat_from_, kOnPoints}) : std::nullopt;
     const std::string many = fmt::format(" or more than {} bodies touch each other", kMostTogether);
-    return ReducedOrder{*crowded_from_,
-                        "in part by " + crowded_.wording() + ", for events crowd there" + (are_many_ ? many : "")};
+    return ReducedOrder{std::min(*crowded_from_, flat_from_.value_or(kInfinity)),
+                        "in part by " + crowded_.wording() + ", for events crowd there" + (are_many_ ? many : "") +
+                            (flat_from_ ? std::string("; in part ") + kOnPoints : "")};
   }
 
   SettingsInForce settings_in_force() const override {
@@ -184,6 +186,7 @@ class EventStepper : public ContactStepper {
       are_many_ = true;
       return take_crowded_step(state, crowded_step_);
     }
+    note_flat_ends(state);
     start_ = BodyColumns(state);
     persistent_contact_.let_go_motors(state);
     has_impact_ = impacts_.resolve(state, touching_);
@@ -197,6 +200,17 @@ class EventStepper : public ContactStepper {
       forces_.add(touching_[i], touching_[i].cone, state, touching_[i].cone.frame * impacts_.impulses()[i]);
     if (!persistent_contact_.select(state, touching_, part_.t + part_.from, part_.length())) return skip_instant(state);
     return advance(state);
+  }
+
+  // How an end that lies flat shares its force over its rim is not known, and four points stand for all. They count
+  // where more than one of them stays or is struck.
+  void note_flat_ends(BodyColumns state) {
+    if (flat_from_) return;
+    const auto stays = [&](const ContactPoint& contact) {
+      return ConeSolver::velocity_at(contact.cone, state).x() <= impacts_.restitution_threshold() &&
+             contact_points_.is_of_flat_end(state, contact);
+    };
+    if (std::count_if(touching_.begin(), touching_.end(), stays) > 1) flat_from_ = part_.t + part_.from;
   }
 
   // As far as the next event, or to the part's end. Returns how far, in the time of the step.
@@ -387,7 +401,7 @@ class EventStepper : public ContactStepper {
   double moving_;                                      // bodies
   double saved_ = std::numeric_limits<double>::max();  // of the budget, in steps of the integrator
   double crowded_step_ = 0, instant_ = 0;              // s
-  std::optional<double> crowded_from_;                 // s
+  std::optional<double> crowded_from_, flat_from_;     // s
   bool are_many_ = false;                              // somewhere, more than kMostTogether
   Part part_;
   double longest_ = kInfinity;                      // s, of the next part
@@ -413,14 +427,15 @@ extern const ContactMethod kEventContact;
 const ContactMethod kEventContact = {
     .name = "event",
     .summary = "impacts at their own instants, persistent contact by forces at each stage; for few bodies",
-    .features = joined(
-        joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
-               joined(contacts_on<Heightfield, Box, Capsule, Convex, Sphere>(),
-                      contacts_on<Mesh, Box, Capsule, Convex, Sphere>())),
-        {contact_feature<Cylinder, Sphere>(), contact_feature<Ellipsoid, Plane>(), contact_feature<Ellipsoid, Sphere>(),
-         Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite,
-         Feature::friction_none, Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit,
-         Feature::motor_speed, Feature::joint_friction, Feature::static_friction}),
+    .features =
+        joined(joined(contacts_among<Box, Capsule, Convex, Plane, Sphere>(),
+                      joined(contacts_on<Heightfield, Box, Capsule, Convex, Sphere>(),
+                             contacts_on<Mesh, Box, Capsule, Convex, Sphere>())),
+               {contact_feature<Cylinder, Plane>(), contact_feature<Cylinder, Sphere>(),
+                contact_feature<Ellipsoid, Plane>(), contact_feature<Ellipsoid, Sphere>(), Feature::placed_shapes,
+                Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite, Feature::friction_none,
+                Feature::restitution, Feature::joints_with_contacts, Feature::joint_limit, Feature::motor_speed,
+                Feature::joint_friction, Feature::static_friction}),
     .options = {kRestitutionThresholdOption, kThresholdsOption, kPatienceOption},
     .make = make_contact_stepper<EventStepper>,
 };

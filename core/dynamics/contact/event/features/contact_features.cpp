@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/collision/side_by_side.h"
 #include "core/dynamics/contact/event/features/surface_features.h"
 
@@ -51,7 +52,11 @@ struct SurfacePoint {
   }
 
   // On a plane; what a ball touches follows from its centre.
-  Choices operator()(const Cylinder& cylinder) const { return {{}, {}, rim_of(cylinder, at)}; }
+  Choices operator()(const Cylinder& cylinder) const {
+    const ContactFeature rim = rim_of(cylinder, at);
+    if (std::hypot(normal.x(), normal.y()) > kUpright) return {{}, {}, rim};
+    return {{}, {}, {.at = rim.at + cylinder.radius * rim.direction, .is_vertex = true}};
+  }
 
   Choices operator()(const SurfaceShape& on) const { return choices_on_surface(*on.surface, at, normal); }
 
@@ -211,6 +216,8 @@ FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pos
   };
   of_a = take_ball(part_a, pose_a, outward_a, of_b.point).value_or(of_a);
   of_b = take_ball(part_b, pose_b, outward_b, of_a.point).value_or(of_b);
+  for (auto& [choices, pose] : {std::pair(&of_a, &pose_a), {&of_b, &pose_b}})
+    if (choices->point.kind == Kind::round) choices->point.direction = pose->R * choices->point.direction;
   if (of_a.line && of_b.line) {
     const Vec3 across = (pose_a.R * of_a.line->direction).cross(pose_b.R * of_b.line->direction);
     const double parallel = of_a.line->radius + of_b.line->radius > 0 ? kParallelLines : kParallelEdges;

@@ -5,6 +5,7 @@
 //   an edge, a capsule's axis                              a line
 //   a side of a box, a plane, a triangle                   a plane
 //   an ellipsoid, the rim of a cylinder                    a round surface, whose point follows from its normal
+//   the end of a cylinder that lies flat                   points of its rim
 // A line and a side end. A ball that rolls over the edge of a box, or past the end of a capsule, passes from one
 // feature to the next. Its normal is continuous there, and its acceleration jumps.
 #pragma once
@@ -18,14 +19,14 @@ namespace rigor {
 
 struct ContactFeature {
   enum class Kind : std::uint8_t { point, line, plane, round } kind = Kind::point;
-  Vec3 at = Vec3::Zero();         // m, in B: the point, one of the line or the plane, or the round surface's centre
-  Vec3 direction = Vec3::Zero();  // unit, in B: along the line, or the plane's outward normal
+  Vec3 at = Vec3::Zero();  // m, in B: the point, one of the line or the plane, or the round surface's centre
+  // Unit, in B: along the line, or the plane's outward normal. Of a rim: in W, from its centre to the contact, when
+  // that began.
+  Vec3 direction = Vec3::Zero();
   double radius = 0;              // m
   bool is_vertex = false;         // the centre of a ball or of a capsule's end, or a corner
   int place = -1;                 // on a surface of triangles: which triangle, ridge or peak this is
-  // m, in B: of a round surface (round_surface.h). The direction of a rim is the one from its axis to the contact, when
-  // the contact began.
-  Mat3 half_axes = Mat3::Zero();
+  Mat3 half_axes = Mat3::Zero();  // m, in B: of a round surface (round_surface.h)
 };
 
 struct FeaturePair {

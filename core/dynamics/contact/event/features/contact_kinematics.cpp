@@ -76,7 +76,7 @@ struct Round {
   Vec3 began;  // of a rim: the direction of its contact when that began
 
   Round(const ContactFeature& feature, const RigidMotion& body)
-      : w(body.w), half_axes(body.pose.R * feature.half_axes), began(body.pose.R * feature.direction) {
+      : w(body.w), half_axes(body.pose.R * feature.half_axes), began(feature.direction) {
     const Vec3 arm = body.pose.R * feature.at;
     centre = body.pose.p + arm, v = body.v + body.w.cross(arm);
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/dynamics/contact/event/features/round_surface.h"
 #include "core/dynamics/contact/event/features/surface_features.h"
 
 namespace rigor {
@@ -66,7 +67,8 @@ struct EndsOf {
     return least;
   }
 
-  // Its cap, its side and its rims meet with one normal, so that a ball rolls from one to the next.
+  // Its cap, its side and its rims meet with one normal, so that a ball rolls from one to the next. On a plane,
+  // of_rim().
   double operator()(const Cylinder& cylinder) const {
     if (other.kind == Kind::plane) return kEndless;
     const double beside = std::hypot(q.x(), q.y()) - cylinder.radius, above = std::abs(q.z()) - 0.5 * cylinder.length;
@@ -88,6 +90,15 @@ struct EndsOf {
   }
 };
 
+// m: the sine of a rim's tilt against the plane that it touches, times its radius. Past flat it is negative: the rim
+// has turned over.
+double of_rim(const ContactFeature& own, const ContactFeature& other, const Mat3& R, const Vec3& outward) {
+  if (own.kind != Kind::round || other.kind != Kind::plane || !is_rim(own.half_axes)) return kEndless;
+  const Mat3 half_axes = R * own.half_axes;
+  const Vec3 across = half_axes.transpose() * outward;
+  return std::copysign(across.norm(), (half_axes * across).dot(own.direction));
+}
+
 }  // namespace
 
 double distance_from_ends(const FeaturePair& features, const ContactKinematics& kinematics, const Collider& a,
@@ -96,8 +107,10 @@ double distance_from_ends(const FeaturePair& features, const ContactKinematics& 
              of_b = kinematics.point - (0.5 * kinematics.gap + features.b.radius) * kinematics.normal;
   const Vec3 in_a = pose_a.R.transpose() * (of_b - pose_a.p), in_b = pose_b.R.transpose() * (of_a - pose_b.p);
   const double reach = std::min(a.bounding_radius, b.bounding_radius);
-  return std::min(std::visit(EndsOf{features.a, features.b, in_a, reach}, a.shape),
-                  std::visit(EndsOf{features.b, features.a, in_b, reach}, b.shape));
+  const Vec3& n = kinematics.normal;
+  return std::min({std::visit(EndsOf{features.a, features.b, in_a, reach}, a.shape),
+                   std::visit(EndsOf{features.b, features.a, in_b, reach}, b.shape),
+                   of_rim(features.a, features.b, pose_a.R, -n), of_rim(features.b, features.a, pose_b.R, n)});
 }
 
 }  // namespace rigor

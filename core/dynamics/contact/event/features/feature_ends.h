@@ -1,4 +1,5 @@
-// Where features end: an edge at its corners, a side at its edges, a flat region of triangles at its border.
+// Where features end: an edge at its corners, a side at its edges, a flat region of triangles at its border,
+// a rim where it turns over.
 #pragma once
 
 #include "core/dynamics/contact/event/features/contact_kinematics.h"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/dynamics/contact/event/features/round_surface.h"
 #include "core/engine/option_values.h"
 #include "core/engine/state_archive.h"
 
@@ -24,6 +25,7 @@ constexpr double kEasy = 0.05;        // the same: a longer step errs where a sl
 constexpr double kFollowed = 4;       // the same, of an adaptive method that follows a slip
 constexpr double kStraight = 1e-9;    // rad: a slip that turns less in a step is straight
 constexpr double kTurn = 0.25;        // rad, of a body among joints in a step of an explicit method
+constexpr double kTurnOfRim = 0.5;    // rad, of the contact about a rim in a step, seen in W
 constexpr long kAskedInStep = 64;     // times for forces, by a method that need not divide its step much
 constexpr double kReversed = 0.1;     // of the fastest slip at any stage: stages differ by less
 constexpr double kMostOfStop = 100;   // of the fastest point that is stopped: the change of any body's speed
@@ -250,7 +252,23 @@ double PersistentContact::choose_step(BodyColumns state, double length) {
   const double shortest = (follows_turning_slip_ ? kFollowing : kShortest) * scales().time;
   const double followed = follows_turning_slip_ ? kFollowed : kStable;
   const double of_slips = fastest > 0 ? std::max(shortest, followed / fastest) : kForever;
-  return std::min({length, of_slips, longest_turn(state)});
+  return std::min({length, of_slips, longest_turn(state), longest_way_of_rims(state)});
+}
+
+// s: a rim that has turned over is told from one that lies elsewhere by the direction in which its contact began.
+double PersistentContact::longest_way_of_rims(BodyColumns state) const {
+  double longest = kForever;
+  for (const PersistentPoint& point : points()) {
+    for (const auto& [feature, body] :
+         {std::pair(&point.features.a, point.contact.cone.a), {&point.features.b, point.contact.cone.b}}) {
+      if (feature->kind != ContactFeature::Kind::round || !is_rim(feature->half_axes)) continue;
+      const Vec3 arm = state.orientation(body) * feature->at;
+      const Vec3 centre_rate = state.velocity(body) + state.angular_velocity(body).cross(arm);
+      const double rate = (point.kinematics.point_rate - centre_rate).norm() / feature->half_axes.col(0).norm();
+      longest = std::min(longest, std::max(kTurnOfRim / rate, kShortest * scales().time));
+    }
+  }
+  return longest;
 }
 
 // An explicit method becomes unstable if a jointed body rotates further than this in a step. Small links rotate fast

@@ -89,6 +89,7 @@ class PersistentContact {
   void note_ends(BodyColumns state);
   double distance_from_ends() const;
   double longest_turn(BodyColumns state) const;
+  double longest_way_of_rims(BodyColumns state) const;
   double damping_rate(const PersistentPoint& point) const;
   bool is_adaptive() const { return in_contact_.adaptive || follows_turning_slip_; }
   Stepper& stepper() const;
