@@ -12,13 +12,13 @@ namespace rigor {
 Provenance events_provenance();
 Provenance recording_provenance();
 Provenance reference_provenance();
-Provenance rolling_ellipsoid_provenance();
+Provenance round_on_plane_provenance();
 
 namespace {
 
 const Provenance* row_of(const std::string& truth) {
   static const std::vector<Provenance> table = {events_provenance(), recording_provenance(), reference_provenance(),
-                                                rolling_ellipsoid_provenance()};
+                                                round_on_plane_provenance()};
   const auto row = std::find_if(table.begin(), table.end(), [&](const Provenance& one) { return one.truth == truth; });
   return row == table.end() ? nullptr : &*row;
 }

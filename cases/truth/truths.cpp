@@ -29,7 +29,7 @@ TruthRow pushed_truth();
 TruthRow recording_truth();
 TruthRow reference_truth();
 TruthRow rolling_truth();
-TruthRow rolling_ellipsoid_truth();
+TruthRow round_on_plane_truth();
 TruthRow slider_truth();
 TruthRow sliding_truth();
 TruthRow soft_bounce_truth();
@@ -59,7 +59,7 @@ const std::vector<TruthRow>& truths() {
       recording_truth(),
       reference_truth(),
       rolling_truth(),
-      rolling_ellipsoid_truth(),
+      round_on_plane_truth(),
       slider_truth(),
       sliding_truth(),
       soft_bounce_truth(),
