@@ -6,16 +6,18 @@
 
 namespace rigor {
 
-// Points of the lower rim, and of a tilted cylinder the lowest one of the other.
-void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out, double nearly) {
-  const CurvedSolid cylinder(a, pose_a);
+void collide_end_plane(const CurvedSolid& cylinder, const Disc& end, const Plane& b, double nearly, Manifold& out) {
   const auto add = [&](const Vec3& at, std::uint32_t feature) {
     const double gap = b.normal.dot(at) - b.offset;
     out.add(b.normal, at - 0.5 * gap * b.normal, gap, feature);
   };
-  const Disc end = end_against(cylinder, b.normal);
   for (const RimPoint& rim : RimPoints(end, b.normal, nearly)) add(rim.at, rim.feature);
   if (!lies_flat(end, b.normal, nearly)) add(deepest_line(cylinder, b.normal).to, end.is_top() ? 0 : 8);
+}
+
+void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out) {
+  const CurvedSolid cylinder(a, pose_a);
+  collide_end_plane(cylinder, end_against(cylinder, b.normal), b, kNearlyFlat, out);
 }
 
 void collide_cylinder_sphere(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,

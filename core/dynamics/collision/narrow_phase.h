@@ -70,9 +70,7 @@ void collide_hulls(const Box& a, const Pose& pose_a, const Convex& b, const Pose
 void collide_hull_sphere(const Convex& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out);
 void collide_hull_plane(const Convex& a, const Pose& pose_a, const Plane& b, Manifold& out);
 void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b, const Pose& pose_b, Manifold& out);
-// `nearly`: the sine of the tilt up to which an end lies flat, on four points that turn with it.
-void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out,
-                            double nearly = kNearlyFlat);
+void collide_cylinder_plane(const Cylinder& a, const Pose& pose_a, const Plane& b, Manifold& out);
 void collide_cylinder_sphere(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b, Manifold& out);
 void collide_ellipsoid_plane(const Ellipsoid& a, const Pose& pose_a, const Plane& b, Manifold& out);
 // Shapes on a surface: the points with a gap of at most the shape's size, which is that from its centre to its end.

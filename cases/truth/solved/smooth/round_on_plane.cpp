@@ -298,7 +298,10 @@ RoundScene round_scene(const Scene& scene) {
   const double roundings = kRoundings * (of.velocity.norm() + of.angular_velocity.norm() * lowest.norm()),
                rises = n.dot(slip);
   if (std::abs(rises) > roundings) refuse_round(fmt::format("its contact point starts upwards at {:.3g} m/s", rises));
+  constexpr double kSlides = 1e6;  // roundings: a slip below that is meant to be none
   const bool slides = slip.norm() > roundings;
+  if (slides && slip.norm() < kSlides * roundings)
+    refuse_round(fmt::format("its contact point starts at {:.3g} m/s, too little to slide", slip.norm()));
   if (slides && law.friction == kInfiniteFriction)
     refuse_round(fmt::format("its contact point starts at {:.3g} m/s, under infinite friction", slip.norm()));
   if (!slides && law.friction == 0) refuse_round("it starts without slip, and friction has to hold it");

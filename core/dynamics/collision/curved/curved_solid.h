@@ -134,6 +134,9 @@ class RimPoints {
   int count_ = 0;
 };
 
+// Points of a cylinder's lower rim, and of one that is tilted the lowest one of the other.
+void collide_end_plane(const CurvedSolid& cylinder, const Disc& end, const Plane& b, double nearly, Manifold& out);
+
 // The line on a cylinder's side that lies deepest, seen along n, from the end that does.
 inline Line deepest_line(const CurvedSolid& cylinder, const Vec3& n) {
   const Disc lower = end_against(cylinder, n);

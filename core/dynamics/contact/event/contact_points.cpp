@@ -39,6 +39,17 @@ void sharpen_gaps(const Shape& shape, const Pose& pose, double side, Manifold& p
   }
 }
 
+// visit(cylinder, its pose in W, the number of its part), of a shape or its parts.
+template <typename Visit>
+void visit_cylinders(const Collider& of, const Pose& pose, const Visit& visit) {
+  if (const auto* alone = std::get_if<Cylinder>(&of.shape)) return visit(*alone, pose, std::size_t{0});
+  const auto* compound = std::get_if<Compound>(&of.shape);
+  for (std::size_t k = 0; compound && k < compound->parts.size(); ++k) {
+    const PlacedShape& part = compound->parts[k];
+    if (const auto* cylinder = std::get_if<Cylinder>(&part.shape)) visit(*cylinder, pose * part.pose, k);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::pair<int, int>>& ContactPoints::candidates(BodyColumns from, BodyColumns to, double dt,
@@ -83,50 +94,61 @@ const Manifold& ContactPoints::manifold(BodyColumns state, int a, int b) {
   if (surface_in(second.shape)) sharpen_gaps(first.shape, pose_of_first, 1, manifold_);
   if (surface_in(first.shape)) sharpen_gaps(second.shape, pose_of_second, -1, manifold_);
   if (surface_in(first.shape) || surface_in(second.shape)) sharpen_normals(state, first, second);
-  if (const auto* ground = std::get_if<Plane>(&second.shape)) sharpen_rims(first, pose_of_first, *ground, 1);
-  if (const auto* ground = std::get_if<Plane>(&first.shape)) sharpen_rims(second, pose_of_second, *ground, -1);
+  if (const auto* ground = std::get_if<Plane>(&second.shape)) sharpen_rims(state, first, *ground, 1);
+  if (const auto* ground = std::get_if<Plane>(&first.shape)) sharpen_rims(state, second, *ground, -1);
   return manifold_;
 }
 
 // Manifolds have fixed points where a cylinder's end lies nearly flat. Here it touches with its lowest point, until it
-// lies flat to rounding. `side`: 1 if normals point to the cylinder.
-void ContactPoints::sharpen_rims(const Collider& of, const Pose& pose, const Plane& ground, double side) {
-  const auto sharpen = [&](const Cylinder& cylinder, const Pose& at, std::size_t number) {
-    const Disc end = end_against(CurvedSolid(cylinder, at), ground.normal);
-    if (!lies_flat(end, ground.normal) || lies_flat(end, ground.normal, kUpright)) return;
+// lies flat to rounding. While it turns over, two of the four points are those that rise and fall fastest. `side`: 1 if
+// normals point to the cylinder.
+void ContactPoints::sharpen_rims(BodyColumns state, const Collider& of, const Plane& ground, double side) {
+  constexpr double kTurns = 1e-8;  // units of speed, of a point of the rim
+  const Vec3& n = ground.normal;
+  const Vec3 falls = state.angular_velocity(of.body).cross(n);  // 1/s, times the radius: how fast a rim's lowest point
+  visit_cylinders(of, pose_of(state, of.body), [&](const Cylinder& cylinder, const Pose& at, std::size_t number) {
+    const CurvedSolid solid(cylinder, at);
+    Disc end = end_against(solid, n);
+    const bool is_flat = lies_flat(end, n, kUpright), turns = falls.norm() * end.radius > kTurns * scales_.speed();
+    if (!lies_flat(end, n) || (is_flat && !turns)) return;
+    if (is_flat) end.along = (falls - falls.dot(end.axis) * end.axis).normalized();
     const auto is_of_part = [&](const ManifoldPoint& point) {
       return (side > 0 ? point.part_a : point.part_b) == number;
     };
     manifold_.keep(
         static_cast<int>(std::remove_if(manifold_.begin(), manifold_.end(), is_of_part) - manifold_.begin()));
     const int first = manifold_.size();
-    collide_cylinder_plane(cylinder, at, ground, manifold_, kUpright);
+    collide_end_plane(solid, end, ground, kUpright, manifold_);
     for (int i = first; i < manifold_.size(); ++i) {
       manifold_[i].normal *= side;
       (side > 0 ? manifold_[i].part_a : manifold_[i].part_b) = static_cast<std::uint16_t>(number);
     }
-  };
-  if (const auto* cylinder = std::get_if<Cylinder>(&of.shape)) return sharpen(*cylinder, pose, 0);
-  const auto* compound = std::get_if<Compound>(&of.shape);
-  for (std::size_t k = 0; compound && k < compound->parts.size(); ++k) {
-    const PlacedShape& part = compound->parts[k];
-    if (const auto* cylinder = std::get_if<Cylinder>(&part.shape)) sharpen(*cylinder, pose * part.pose, k);
-  }
+  });
 }
 
 bool ContactPoints::is_of_flat_end(BodyColumns state, const ContactPoint& contact) const {
   if (contact.is_limit()) return false;
-  const auto is_flat = [&](const Collider& of, std::size_t part, const Collider& on) {
-    const auto* ground = std::get_if<Plane>(&on.shape);
-    if (!ground) return false;
-    const auto* compound = std::get_if<Compound>(&of.shape);
-    const auto* cylinder = std::get_if<Cylinder>(compound ? &compound->parts[part].shape : &of.shape);
-    if (!cylinder) return false;
-    const Pose pose = pose_of(state, of.body), at = compound ? pose * compound->parts[part].pose : pose;
-    return lies_flat(end_against(CurvedSolid(*cylinder, at), ground->normal), ground->normal, kUpright);
+  bool is_flat = false;
+  const auto look = [&](int of, std::size_t part, int on) {
+    const auto* ground = std::get_if<Plane>(&colliders_[on].shape);
+    if (!ground) return;
+    visit_cylinders(colliders_[of], pose_of(state, colliders_[of].body),
+                    [&](const Cylinder& cylinder, const Pose& at, std::size_t number) {
+                      const Disc end = end_against(CurvedSolid(cylinder, at), ground->normal);
+                      is_flat = is_flat || (number == part && lies_flat(end, ground->normal, kUpright));
+                    });
   };
-  const Collider &a = colliders_[contact.a], &b = colliders_[contact.b];
-  return is_flat(a, contact.part_a, b) || is_flat(b, contact.part_b, a);
+  look(contact.a, contact.part_a, contact.b), look(contact.b, contact.part_b, contact.a);
+  return is_flat;
+}
+
+bool ContactPoints::has_rims(int a, int b) const {
+  const auto stands = [this](int of, int on) {
+    bool has_cylinder = false;
+    visit_cylinders(colliders_[of], Pose(), [&](const auto&...) { has_cylinder = true; });
+    return has_cylinder && std::holds_alternative<Plane>(colliders_[on].shape);
+  };
+  return stands(a, b) || stands(b, a);
 }
 
 // Where edges cross over a triangle that lies nearly flat against both, manifolds have the triangle's normal.

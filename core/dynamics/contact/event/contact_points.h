@@ -64,12 +64,14 @@ class ContactPoints {
   bool follow(BodyColumns state, ContactPoint& contact);
   // Whether it is one of the four points on which the end of a cylinder lies flat on a plane.
   bool is_of_flat_end(BodyColumns state, const ContactPoint& contact) const;
+  // Whether a cylinder may touch a plane.
+  bool has_rims(int a, int b) const;
 
  private:
   const std::vector<std::pair<int, int>>& overlapping_boxes();
   void place(BodyColumns state, const ManifoldPoint& point, ContactPoint& contact) const;
   void sharpen_normals(BodyColumns state, const Collider& a, const Collider& b);
-  void sharpen_rims(const Collider& of, const Pose& pose, const Plane& ground, double side);
+  void sharpen_rims(BodyColumns state, const Collider& of, const Plane& ground, double side);
   bool is_past_end(BodyColumns state, const ManifoldPoint& point, int a, int b) const;
   ContactPoint limit_at(BodyColumns state, std::size_t k) const;
 

@@ -15,6 +15,7 @@ constexpr double kNothingNear = std::numeric_limits<double>::infinity();
 // In the scene's units of gaps.
 constexpr double kRounding = 1e-14;                      // of the gap of bodies that touched at the start
 constexpr double kMissed = 0.1 * ContactPoint::kClosed;  // an overlap that is overlooked
+constexpr double kSamePlace = 1e-6;                      // units of length: one point of a rim
 constexpr double kAtSurface = 1e-6;                      // above a surface: too near to be seen to stay off it
 
 }  // namespace
@@ -162,9 +163,14 @@ double Clearance::least_gap(const Pairs& pairs, const std::vector<ContactPoint>&
     for (const PersistentPoint& point : known) {
       if (is_of_pair(point.contact)) drift = std::max(drift, kRounding * unit + 4 * std::abs(point.kinematics.gap));
     }
+    // A flat end keeps one of four points when it turns over; from then on its lowest point has another number.
+    const bool may_roll = contact_points_.has_rims(a, b);
+    const auto is_same_place = [&](const PersistentPoint& one, const ManifoldPoint& other) {
+      return (one.kinematics.point - other.point).norm() < kSamePlace * contact_points_.scales().length;
+    };
     for (const ManifoldPoint& point : contact_points_.manifold(at.state, a, b)) {
       const bool is_known = std::any_of(known.begin(), known.end(), [&](const PersistentPoint& h) {
-        return is_of_pair(h.contact) && h.contact.feature == point.feature;
+        return is_of_pair(h.contact) && (h.contact.feature == point.feature || (may_roll && is_same_place(h, point)));
       });
       if (!is_known) least = std::min(least, (point.gap + drift) / unit);
     }

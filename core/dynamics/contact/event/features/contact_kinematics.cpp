@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/contact/event/features/round_surface.h"
 
 namespace rigor {
@@ -81,13 +82,12 @@ struct Round {
     centre = body.pose.p + arm, v = body.v + body.w.cross(arm);
   }
 
-  // The point whose outward normal is m. That of a rim which lies flat is where the contact began, and a rim that turns
-  // over past that keeps it until the end of its contact is found (feature_ends.h).
+  // The point whose outward normal is m. That of a rim which lies flat is the one on the side where the contact began.
+  // A rim that turns over past that keeps it until the end of its contact is found (feature_ends.h).
   RoundPoint point(const Vec3& m) const {
-    constexpr double kFlat = 1e-14;  // rad
     if (!is_rim(half_axes)) return point_with_normal(half_axes, m);
     const double radius = half_axes.col(0).norm(), tilt = (half_axes.transpose() * m).norm() / radius;
-    if (tilt < kFlat) return {radius * began, Mat3::Zero()};
+    if (tilt < kUpright) return {radius * (half_axes * (half_axes.transpose() * began)).normalized(), Mat3::Zero()};
     RoundPoint at = point_with_normal(half_axes, m);
     if (at.at.dot(began) < 0) at.at *= -1, at.by_turns *= -1;
     return at;
