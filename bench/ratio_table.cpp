@@ -75,6 +75,8 @@ void add_joints(std::vector<RatioRow>& rows) {
   if (is_built(kMujoco)) add("chain", 95, {kMujoco, 0}, 2);  // its reader of scenes goes no deeper
   for (const std::string& other : {kDart, kMujoco, kSimbody})
     if (is_built(other)) add("ragdolls", 1000, {other, 0}, 2);
+  for (const std::string& other : {engines[1].run, kBullet, kDart, kMujoco, kSimbody})
+    if (is_built(other)) add("servo-arms", 1000, {other, 0}, 0);
   for (const auto& [scene, count] : {std::pair("chain", 1),
                                      {"chain", 10},
                                      {"chain", 1000},
@@ -83,6 +85,20 @@ void add_joints(std::vector<RatioRow>& rows) {
                                      {"ragdolls", 1000}}) {
     for (const Against& other : {engines[1], engines[2]}) add(scene, count, other, 0);
   }
+}
+
+// Piles of hulls and cylinders. An engine that lacks the shape, or one of its pairs, says so in its row.
+void add_solids(std::vector<RatioRow>& rows, const std::string& impulse, const std::string& quick) {
+  for (const char* scene : {"hulls", "cube-hulls", "cylinders"}) {
+    for (const std::string& other : {kBullet, quick, kMujoco, kDart}) {
+      if (!is_built(other)) continue;
+      rows.push_back({fmt::format("{}, against {}", title(scene, 216, impulse), other), step(scene, 216, impulse),
+                      step(scene, 216, other), RatioRow::Kind::times_as_fast, other == kBullet ? 3.0 : 0.0});
+    }
+  }
+  for (const char* scene : {"hulls", "cube-hulls"})
+    rows.push_back({title(scene, 1000, impulse) + " against Bullet", step(scene, 1000, impulse),
+                    step(scene, 1000, kBullet), RatioRow::Kind::times_as_fast, 3});
 }
 
 std::vector<RatioRow> all_rows() {
@@ -102,8 +118,7 @@ std::vector<RatioRow> all_rows() {
   add_optional(rows, "pile", 216, impulse, 4);
   add_pair(rows, "pyramid", 1240, impulse, quick, 4, 3);
   add_pair(rows, "balls-on-hills", 216, impulse, quick, 0, 0);
-  rows.push_back({title("hulls", 216, impulse) + " against Bullet", step("hulls", 216, impulse),
-                  step("hulls", 216, kBullet), Kind::times_as_fast, 3});
+  add_solids(rows, impulse, quick);
   rows.push_back({"pile, a ball of N = 8000 against one of N = 1000", step("pile", 8000, impulse),
                   step("pile", 1000, impulse), Kind::at_most_times, 1.35});
   add_joints(rows);

@@ -147,25 +147,38 @@ Scene balls_on_hills(const SceneRow& row, int count) {
   return scene;
 }
 
-// A cube of rocks with 32 corners each, all alike, turned in different ways.
-Scene hulls(const SceneRow& row, int count) {
+// The same cube of other solids, all alike, turned in different ways.
+Scene pile_of(const Shape& shape, const SceneRow& row, int count) {
   Scene scene = pile(row, count);
-  std::vector<Vec3> corners;
-  for (int k = 0; k < 32; ++k) {  // a spiral on the sphere, a little uneven
-    const double z = 1 - (2 * k + 1) / 32.0, around = 2.399963 * k, r = std::sqrt(1 - z * z);
-    corners.push_back((0.1 + 0.003 * std::sin(7.0 * k)) * Vec3(r * std::cos(around), r * std::sin(around), z));
-  }
-  const Convex rock{hull_of(corners)};
   for (Body& body : scene.bodies) {
     if (body.fixed) continue;
-    body.shape = rock;
-    body.inertia = inertia_of(rock, body.mass);
+    body.shape = shape;
+    body.inertia = inertia_of(shape, body.mass);
     body.orientation =
         rotation_by(Vec3(1.7, 0.9, -1.1) * std::sin(1.0 + static_cast<double>(&body - scene.bodies.data())));
     body.position *= 1.1;
   }
   return scene;
 }
+
+// Rocks with 32 corners.
+Scene hulls(const SceneRow& row, int count) {
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 32; ++k) {  // a spiral on the sphere, a little uneven
+    const double z = 1 - (2 * k + 1) / 32.0, around = 2.399963 * k, r = std::sqrt(1 - z * z);
+    corners.push_back((0.1 + 0.003 * std::sin(7.0 * k)) * Vec3(r * std::cos(around), r * std::sin(around), z));
+  }
+  return pile_of(Convex{hull_of(corners)}, row, count);
+}
+
+// Cubes, which no engine is told to be boxes.
+Scene cube_hulls(const SceneRow& row, int count) {
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k) corners.push_back(0.06 * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+  return pile_of(Convex{hull_of(corners)}, row, count);
+}
+
+Scene cylinders(const SceneRow& row, int count) { return pile_of(Cylinder{0.07, 0.14}, row, count); }
 
 // A square pyramid of boxes, each layer one box narrower than the one below; 15 layers are 1,240 boxes.
 Scene pyramid(const SceneRow&, int count) {
@@ -272,6 +285,24 @@ Scene four_bars(const SceneRow&, int count) {
   return scene;
 }
 
+// Arms of five links, each on a hinge with a servo, that hold out their rods and swing to other angles.
+Scene servo_arms(const SceneRow&, int count) {
+  constexpr int kLinks = 5;
+  constexpr double kApart = 1;  // m
+  Scene scene;
+  scene.gravity = {0, 0, -9.81};
+  for (int i = 0; i < count; ++i) {
+    const int link = i % kLinks;
+    const Vec3 from = Vec3(0, kApart * (i / kLinks), 0) + link * kLink * Vec3::UnitX();
+    scene.bodies.push_back(rod(i, from, from + kLink * Vec3::UnitX()));
+    scene.joints.push_back({.a = link == 0 ? kWorld : i - 1, .b = i, .type = HingeJoint{from, Vec3::UnitY()}});
+    Motor motor{.joint = i};
+    motor.servo = Servo{.target = TimeTable::constant(0.1 + 0.05 * link), .kp = 60.0 - 10 * link, .kd = 1 - 0.1 * link};
+    scene.motors.push_back(motor);
+  }
+  return scene;
+}
+
 // Copies of a case of the suite with `count` bodies in all, but those that are fixed. They stand apart, wider than one
 // is tall.
 Scene many_of(const std::string& id, int count) {
@@ -302,15 +333,18 @@ const std::vector<SceneRow>& scenes() {
       {"bouncing-spheres", {1, 100, 1000, 10000}, kFine, Reached::energy, false, bouncing_spheres},
       {"chain", {1, 10, 95, 100, 1000}, kFine, Reached::joint_gap, false, joint_chain},
       {"contact/collision", {1}, kCourse, Reached::energy, false, of_the_suite},
+      {"cube-hulls", {216, 1000}, kPile, Reached::penetration, false, cube_hulls},
+      {"cylinders", {216}, kPile, Reached::penetration, false, cylinders},
       {"four-bars", {21, 81}, kFine, Reached::joint_gap, false, four_bars},
       {"free-bodies", {1, 10, 100, 1000, 10000, 100000, 1000000}, kFine, Reached::trajectory, true, free_bodies},
-      {"hulls", {216}, kPile, Reached::penetration, false, hulls},
+      {"hulls", {216, 1000}, kPile, Reached::penetration, false, hulls},
       {"humanoids", {12, 1200}, kFine, Reached::gap_and_overlap, false, humanoids},
       {"pile", {216, 1000, 8000}, kPile, Reached::penetration, false, pile},
       {"pyramid", {1240}, kPile, Reached::penetration, false, pyramid},
       {"quadrupeds", {9, 900}, kFine, Reached::gap_and_overlap, false, quadrupeds},
       {"ragdolls", {10, 1000}, kFine, Reached::joint_gap, false, ragdolls},
       {"rod-net", {55, 171}, kFine, Reached::joint_gap, false, rod_net},
+      {"servo-arms", {1000}, kFine, Reached::joint_gap, false, servo_arms},
       {"spring-chain", {1, 10, 100, 1000, 10000, 100000}, kFine, Reached::trajectory, false, spring_chain},
       {"spring-net", {100, 1024, 10000}, kFine, Reached::trajectory, false, spring_net},
       {"springs/body-springs", {2}, kCourse, Reached::trajectory, false, of_the_suite},
