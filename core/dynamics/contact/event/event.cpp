@@ -210,7 +210,9 @@ class EventStepper : public ContactStepper {
       return ConeSolver::velocity_at(contact.cone, state).x() <= impacts_.restitution_threshold() &&
              contact_points_.is_of_flat_end(state, contact);
     };
-    if (std::count_if(touching_.begin(), touching_.end(), stays) > 1) flat_from_ = part_.t + part_.from;
+    if (std::count_if(touching_.begin(), touching_.end(), stays) < 2) return;
+    flat_from_ = part_.t + part_.from;
+    if (patience_ > 1) note("the flat end of a cylinder shares its force over its rim in an unknown way");
   }
 
   // As far as the next event, or to the part's end. Returns how far, in the time of the step.
