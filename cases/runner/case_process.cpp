@@ -123,8 +123,9 @@ class CaseJobs {
         flaws[job] = fmt::format("its message could not be read: {}", error.what());
         return;
       }
-      channel.send(record.message);
+      // Kept before it is told, so that what was told need not be done again.
       if (why_hopeless(jobs_[job]).empty()) journal.add(job, record);  // with more time it is tried
+      channel.send(record.message);
     };
     const auto on_end = [&](std::size_t index, JobEnd end) {
       const auto flaw = flaws.find(left[index]);
