@@ -209,6 +209,8 @@ class CaseJobs {
 
   void do_cell(const JobSpec& job, const Channel& channel) const {
     const Cell& cell = planned_.cells[job.part];
+    // A file that an earlier run left may also be one of the published outputs, by a hard link: it is not overwritten.
+    for (const auto& recorder : options_.recorders) recorder->discard(cell);
     const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_,
                                        truth_on_steps_, reference_ ? &*reference_ : nullptr);
     channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene),
