@@ -49,11 +49,17 @@ Journal::Journal(const std::string& file, const std::string& plan) {
   if (bytes.starts_with(title)) {
     whole = title.size();
     std::size_t job = 0;
-    for (Record record; take_record(bytes, whole, job, record);) found_[job] = record;
+    for (Record record; take_record(bytes, whole, job, record);) {
+      record.message.empty() ? void(found_.erase(job)) : void(found_[job] = record);
+    }
   }
   descriptor_ = the_platform().open(file, O_WRONLY | O_CREAT);
   // A failed write is ignored; the run is not affected.
-  if (descriptor_ < 0 || the_platform().truncate(descriptor_, whole) != 0) return;
+  if (descriptor_ < 0) return;
+  if (the_platform().truncate(descriptor_, whole) != 0) {
+    the_platform().close(descriptor_), descriptor_ = -1;
+    return;
+  }
   if (whole == 0) append(title);
 }
 
@@ -62,7 +68,11 @@ Journal::~Journal() {
 }
 
 void Journal::forget_if(const std::function<bool(const Record&)>& is_wrong) {
-  std::erase_if(found_, [&](const auto& one) { return is_wrong(one.second); });
+  std::erase_if(found_, [&](const auto& one) {
+    if (!is_wrong(one.second)) return false;
+    add(one.first, {});  // for the next run, too: its trajectory may be there again by then, of another try
+    return true;
+  });
 }
 
 void Journal::append(const std::string& bytes) {
