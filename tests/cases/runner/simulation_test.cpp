@@ -27,9 +27,10 @@
 #include "tests/cases/runner/platform/simulated_platform.h"
 
 using namespace rigor;
-using namespace rigor::test;
 
 BOOST_AUTO_TEST_SUITE(cases_runner_simulation)
+
+using namespace rigor::test;
 
 namespace {
 
@@ -217,8 +218,19 @@ class Schedule : public Stage {
         at_once.back()->is_disturbed = true;
       }
       play(at_once, draw_faults(), false);
+      if (dice_.chance(0.15)) lose_a_trajectory(folder);
     }
     play({&new_attempt(folder, its, dice_.chance(0.8))}, {}, false);
+  }
+
+  // As a user may do with what a run has left.
+  void lose_a_trajectory(const std::string& folder) {
+    const auto grown = platform_.find(folder + "/.rigor-partial/trajectories");
+    if (!grown || grown->names.empty()) return;
+    auto lost = grown->names.begin();
+    std::advance(lost, static_cast<long>(dice_.below(grown->names.size())));
+    grown->names.erase(lost);
+    kept_.clear();
   }
 
   // Some kinds of faults at a time, since many together let no run come far.
