@@ -49,7 +49,7 @@ class SigningRecorder : public Recorder {
   Recording of_truth(const Case&, const Truth&, const TruthFacts&) const override { return {}; }
   Recording of_run(const Case&, const Cell& cell, const JudgedRun&, const std::vector<NamedSeries>&,
                    const TruthFacts&) const override {
-    const std::string maker = std::to_string(stage->platform().current());
+    const std::string maker = std::to_string(cell_stage->platform().current());
     write_file(folder_ + "/" + cell.trajectory, fmt::format("rows of {} by {}\n", cell.trajectory, maker));
     return {maker};
   }
@@ -140,10 +140,10 @@ struct Attempt {
   std::set<std::string> heard = {};
 };
 
-class Schedule : public Stage {
+class Schedule : public CellStage {
  public:
-  Schedule(Play& play, std::uint64_t seed) : play_(play), dice_(seed), platform_(dice_.roll()) { stage = this; }
-  ~Schedule() override { stage = nullptr; }
+  Schedule(Play& play, std::uint64_t seed) : play_(play), dice_(seed), platform_(dice_.roll()) { cell_stage = this; }
+  ~Schedule() override { cell_stage = nullptr; }
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
   SimulatedPlatform& platform() override { return platform_; }

@@ -23,13 +23,13 @@ inline constexpr int kWays = 11;
 inline constexpr double kLimit = 0.25;  // s; short, since the pool looks after its children every 50 ms
 
 // Hears of each cell that begins; the schedule that is played.
-class Stage {
+class CellStage {
  public:
-  virtual ~Stage() = default;
+  virtual ~CellStage() = default;
   virtual void begins(const std::string& cell) = 0;
   virtual SimulatedPlatform& platform() = 0;
 };
-inline Stage* stage = nullptr;
+inline CellStage* cell_stage = nullptr;
 
 inline std::string name_of(const std::string& engine, const std::string& of_case, double dt) {
   return fmt::format("{} {} {:g}", of_case, engine, dt);
@@ -65,7 +65,7 @@ class ActingEngine : public Engine {
       time_ += dt;
       // Each cell has its own motion.
       body_.position.x() += dt * (1 + 0.125 * dt) * static_cast<double>(engine_.name_.size() + body_.name.back() % 7);
-      if (++steps_ == 1) stage->begins(name_of(engine_.name_, body_.name, dt));
+      if (++steps_ == 1) cell_stage->begins(name_of(engine_.name_, body_.name, dt));
       if (steps_ == 2) act(engine_.ways_.at(name_of(engine_.name_, body_.name, dt)), body_.position.x());
     }
     void read(Snapshot& out) const override {
@@ -77,7 +77,7 @@ class ActingEngine : public Engine {
 
    private:
     static void act(Way way, double x) {
-      SimulatedPlatform& platform = stage->platform();
+      SimulatedPlatform& platform = cell_stage->platform();
       platform.breathe();
       if (way == Way::waits) platform.sleep(std::chrono::milliseconds(1000));  // four tenths of what it may
       if (way == Way::computes) platform.spend(0.8 * kLimit);
