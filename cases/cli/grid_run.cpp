@@ -78,28 +78,9 @@ std::string text_of_report(const ReportRow& report, const Results& grid, const R
   return report.name == "html" && added.on_page ? added.on_page(text) : text;
 }
 
-// Writes each report by itself, then moves all that could be written into place. Returns a sentence for each that could
-// not. The folder then keeps the results if --resume can continue from them.
-std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& folder, const ReportAdditions& added) {
-  std::vector<std::string> faults, trajectories;
-  std::size_t written = 0;
-  const auto write = [&](const std::string& file, const std::function<std::string()>& text) {
-    try {
-      folder.write(file, text());
-      ++written;
-    } catch (const std::exception& error) {
-      faults.push_back(fmt::format("{} was not written: {}", file, error.what()));
-    }
-  };
-  for (const ReportRow& report : reports())
-    write(report.file_name, [&] { return text_of_report(report, grid, added); });
-  for (const auto& [file, text] : added.files) write(file, [&content = text] { return content; });
-  if (!faults.empty() && added.can_resume) folder.keep();
-  if (written == 0) {
-    faults.push_back(added.can_resume ? "no report was written, so no output was changed; --resume continues the run"
-                                      : "no report was written, so no output was changed");
-    return faults;
-  }
+// The files of every cell that has any.
+std::vector<std::string> trajectories_in(const Results& grid) {
+  std::vector<std::string> trajectories;
   for (const CaseResult& result : grid.cases) {
     for (const Cell& cell : result.cells) {
       if (!cell.trajectory.empty() && cell.status != Status::unsupported) trajectories.push_back(cell.trajectory);
@@ -108,11 +89,7 @@ std::vector<std::string> faults_of_writing(const Results& grid, OutputFolder& fo
         trajectories.insert(trajectories.end(), series->second.begin(), series->second.end());
     }
   }
-  folder.publish(trajectories);
-  if (!faults.empty())
-    faults.push_back(added.can_resume ? "the other outputs are in place; --resume writes all of them again"
-                                      : "the other outputs are in place");
-  return faults;
+  return trajectories;
 }
 
 // Whether a cell crashed or ran out of time. A search for the stable step may run out of time, but must not crash.
@@ -303,7 +280,11 @@ void judge(GridRun& run) {
 }
 
 bool write_reports(const Results& grid, OutputFolder& folder, const ReportAdditions& added) {
-  const auto faults = faults_of_writing(grid, folder, added);
+  std::vector<OutputFile> files;
+  for (const ReportRow& report : reports())
+    files.push_back({report.file_name, [&] { return text_of_report(report, grid, added); }});
+  for (const auto& [file, text] : added.files) files.push_back({file, [&content = text] { return content; }});
+  const auto faults = faults_of_writing(folder, files, trajectories_in(grid), added.can_resume);
   for (const std::string& fault : faults) say(fault);
   return faults.empty();
 }

@@ -116,15 +116,17 @@ class CaseJobs {
       const std::size_t job = left[index];
       if (flaws.contains(job)) return;  // a job answers once
       const Journal::Record record = parted(message);
+      Status status = Status::crashed;
       try {
-        hear(job, record);
+        status = hear(job, record);
         flaws[job] = "";
       } catch (const std::exception& error) {
         flaws[job] = fmt::format("its message could not be read: {}", error.what());
         return;
       }
+      // Kept before it is told, so that what was told need not be done again.
+      if (status != Status::timed_out) journal.add(job, record);  // with more time it is tried
       channel.send(record.message);
-      if (why_hopeless(jobs_[job]).empty()) journal.add(job, record);  // with more time it is tried
     };
     const auto on_end = [&](std::size_t index, JobEnd end) {
       const auto flaw = flaws.find(left[index]);
@@ -208,6 +210,8 @@ class CaseJobs {
 
   void do_cell(const JobSpec& job, const Channel& channel) const {
     const Cell& cell = planned_.cells[job.part];
+    // A file that an earlier run left may also be one of the published outputs, by a hard link: it is not overwritten.
+    for (const auto& recorder : options_.recorders) recorder->discard(cell);
     const JudgedCell judged = run_cell(cell, planned_.definition, engines_, run_of(cell.run), truth_, facts_, options_,
                                        truth_on_steps_, reference_ ? &*reference_ : nullptr);
     channel.send(joined({message_of_cell(job.part, judged.cell, planned_.definition.scene),
@@ -241,18 +245,20 @@ class CaseJobs {
 
   // Throws for an answer that the grid's process could not read, or that is about another job than its own. Keeps a
   // path.
-  void hear(std::size_t job, const Journal::Record& record) {
+  Status hear(std::size_t job, const Journal::Record& record) {
     const MessageSubject subject = apply_message(heard_, record.message);
     if (subject != subject_of(jobs_[job])) throw std::runtime_error("it is about another cell");
-    if (subject.part != MessageSubject::Part::cell) return;
+    if (subject.part != MessageSubject::Part::cell) return heard_.stable_steps[subject.index].status;
     const Cell &planned = planned_.cells[subject.index], &heard = heard_.cells[subject.index];
     if (!heard.trajectory.empty() && heard.trajectory != planned.trajectory)
       throw std::runtime_error("it names another trajectory");
+    const Status status = heard.status;
     heard_.cells[subject.index] = planned;  // its recordings are large
-    if (record.path.empty()) return;
+    if (record.path.empty()) return status;
     Path path = unpacked(record.path);
     if (path.bodies != planned_.definition.scene.bodies.size()) throw std::runtime_error("its path has other bodies");
     paths_[subject.index] = std::move(path);
+    return status;
   }
 
   const Results& grid_;

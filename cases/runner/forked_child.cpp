@@ -1,21 +1,12 @@
 #include "cases/runner/forked_child.h"
 
-#include <fcntl.h>
-#include <malloc.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <ctime>
-#include <limits>
 #include <system_error>
 
 #include "core/base/error.h"
@@ -31,36 +22,14 @@ constexpr double kWaits = 10;
 // times its own by the clock, twice the longest time of its children. A stopped job sends nothing.
 constexpr double kSilence = 2 * kWaits;
 
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
-
-struct Pipe {
-  Descriptor read, write;
-  Pipe() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) fail("a pipe to a child process");
-    read.reset(ends[0]), write.reset(ends[1]);
-    fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  }
-};
-
 // Appends the available data. Closes the descriptor at its end.
 void drain(Descriptor& from, std::string& into) {
   char buffer[1 << 16];
   while (from.number() >= 0) {
-    const ssize_t count = read(from.number(), buffer, sizeof buffer);
+    const ssize_t count = the_platform().read(from.number(), buffer, sizeof buffer);
     if (count > 0) into.append(buffer, count);
     if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) from.close();
     if (count < 0 && errno != EINTR) return;
-  }
-}
-
-// The parent's handlers are not for the child. Signals that the parent ignores are ignored in the child, too.
-void drop_handlers() {
-  for (int signal = 1; signal < NSIG; ++signal) {
-    const bool stops = signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGQUIT;
-    struct sigaction now {};
-    if (stops && sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;
-    std::signal(signal, SIG_DFL);
   }
 }
 
@@ -74,35 +43,10 @@ void do_and_tell(const Job& job, const Channel& channel) {
   } catch (const std::exception& error) {
     channel.send_frame('e', error.what());
   } catch (const Interrupted& interruption) {  // a child that itself waits for children
-    std::signal(interruption.signal, SIG_DFL);
-    std::raise(interruption.signal);
+    the_platform().die_of(interruption.signal);
   } catch (...) {
     channel.send_frame('e', "an exception of an unknown type");
   }
-}
-
-[[noreturn]] void be_the_child(const Job& job, const Pipe& messages, const Pipe& words, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);  // it died before the line above
-  drop_handlers();
-  std::signal(SIGXFSZ, SIG_IGN);  // but a file that grows too large is a write that fails
-  // What a run frees it takes again: given back to the kernel between, a tenth of a cell's time is page faults.
-  constexpr int kLargestKept = 32 << 20;  // bytes; the most that glibc allows
-  mallopt(M_MMAP_THRESHOLD, kLargestKept), mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-  const rlimit no_core_file{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core_file);
-  dup2(words.write.number(), STDOUT_FILENO);
-  dup2(words.write.number(), STDERR_FILENO);
-  // An exception that left this function would continue the parent's work in the child, and remove the parent's files.
-  try {
-    do_and_tell(job, Channel(messages.write.number()));
-    _exit(0);
-  } catch (const std::exception& error) {  // an engine may close the channel
-    std::fprintf(stderr, "%s\n", error.what());
-    std::fflush(stderr);
-  } catch (...) {
-  }
-  _exit(1);
 }
 
 // The last line with something on it, its control characters blanked.
@@ -131,29 +75,27 @@ void Channel::send_frame(char kind, const std::string& text) const {
   std::memcpy(frame.data() + 1, &length, sizeof length);
   frame += text;
   for (std::size_t at = 0; at < frame.size();) {
-    const ssize_t count = write(descriptor_, frame.data() + at, frame.size() - at);
-    if (count < 0 && errno != EINTR) fail("sending a result to the parent process");
+    const ssize_t count = the_platform().write(descriptor_, frame.data() + at, frame.size() - at);
+    if (count < 0 && errno != EINTR)
+      throw std::system_error(errno, std::generic_category(), "sending a result to the parent process");
     if (count > 0) at += count;
   }
 }
 
 void Descriptor::close() {
-  if (number_ >= 0) ::close(number_);
+  if (number_ >= 0) the_platform().close(number_);
   number_ = -1;
 }
 
-ForkedChild::ForkedChild(const Job& work, std::size_t index) : job(index), limit_(work.limit) {
-  Pipe messages, words;
-  std::fflush(nullptr);  // or a child that calls exit() would print our buffers again
-  const pid_t parent = getpid();
-  pid_ = fork();
-  if (pid_ < 0) fail("starting a child process");
-  if (pid_ == 0) be_the_child(work, messages, words, parent);
-  messages_.take(messages.read), words_.take(words.read);
+ForkedChild::ForkedChild(const Job& work, std::size_t index)
+    : job(index), begin_(the_platform().now()), last_heard_(begin_), limit_(work.limit) {
+  const Platform::Child child = the_platform().start([work](const Channel& channel) { do_and_tell(work, channel); });
+  pid_ = child.process;
+  messages_.reset(child.messages), words_.reset(child.words);
 }
 
 ForkedChild::~ForkedChild() {
-  if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+  if (pid_ > 0) the_platform().kill_and_wait(pid_);
 }
 
 void ForkedChild::listen(const std::function<void(std::size_t, const std::string&)>& on_message) {
@@ -173,21 +115,21 @@ void ForkedChild::listen(const std::function<void(std::size_t, const std::string
 }
 
 bool ForkedChild::has_ended() {
-  int status = 0;
-  if (waitpid(pid_, &status, WNOHANG) != pid_) return false;
+  const auto status = the_platform().status_of_ended(pid_);
+  if (!status) return false;
   pid_ = -1;
-  status_ = status;
+  status_ = *status;
   return true;
 }
 
 bool ForkedChild::is_late() const {
-  if (closing_kind_ || has_sent_) return Time::now() - last_heard_ > seconds(kSilence * limit_);
-  return cpu_seconds() > limit_ || Time::now() - begin_ > seconds(kWaits * limit_);
+  const Platform::Time::time_point now = the_platform().now();
+  if (closing_kind_ || has_sent_) return now - last_heard_ > seconds(kSilence * limit_);
+  return the_platform().cpu_seconds(pid_) > limit_ || now - begin_ > seconds(kWaits * limit_);
 }
 
 void ForkedChild::stop() {
-  kill(pid_, SIGKILL);
-  waitpid(pid_, &status_, 0);
+  status_ = the_platform().kill_and_wait(pid_);
   pid_ = -1;
   timed_out_ = true;
 }
@@ -196,7 +138,7 @@ JobEnd ForkedChild::end() const {
   JobEnd end;
   end.last_words = last_line(spoken_);
   end.text = closing_text_;
-  end.seconds = std::chrono::duration<double>(Time::now() - begin_).count();
+  end.seconds = std::chrono::duration<double>(the_platform().now() - begin_).count();
   if (closing_kind_) {
     end.how = closing_kind_ == 'd' ? Ending::finished : closing_kind_ == 'i' ? Ending::refused : Ending::threw;
   } else if (timed_out_) {
@@ -208,17 +150,9 @@ JobEnd ForkedChild::end() const {
   return end;
 }
 
-// The CPU time of all its threads.
-double ForkedChild::cpu_seconds() const {
-  clockid_t clock{};
-  timespec used{};
-  if (clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &used) != 0) return 0;  // it has just ended
-  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
-}
-
 void ForkedChild::take_frame(char kind, const std::string& text,
                              const std::function<void(std::size_t, const std::string&)>& on_message) {
-  last_heard_ = Time::now();
+  last_heard_ = the_platform().now();
   if (kind != 'm') {
     closing_kind_ = kind, closing_text_ = text;
   } else {

@@ -1,4 +1,4 @@
-// One child of the process pool: a fork that does one job, the pipes for its messages and its output, and its end.
+// One child of the process pool: a process that does one job, the pipes for its messages and its output, and its end.
 #pragma once
 
 #include <sys/types.h>
@@ -6,8 +6,8 @@
 #include <chrono>
 #include <functional>
 #include <string>
-#include <utility>
 
+#include "cases/runner/platform/platform.h"
 #include "cases/runner/process_pool.h"
 
 namespace rigor {
@@ -21,7 +21,6 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
   void reset(int number) { close(), number_ = number; }
-  void take(Descriptor& from) { reset(std::exchange(from.number_, -1)); }
   void close();
 
  private:
@@ -48,13 +47,10 @@ class ForkedChild {
   JobEnd end() const;
 
  private:
-  using Time = std::chrono::steady_clock;
-
-  double cpu_seconds() const;
   void take_frame(char kind, const std::string& text,
                   const std::function<void(std::size_t, const std::string&)>& on_message);
 
-  Time::time_point begin_ = Time::now(), last_heard_ = begin_;
+  Platform::Time::time_point begin_, last_heard_;
   double limit_;  // s
   pid_t pid_ = -1;
   int status_ = 0;

@@ -257,12 +257,15 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   const GridJobs all_jobs(grid, options);
   const std::vector<JobSpec>& jobs = all_jobs.jobs();
   const int at_once = std::min<int>(options.jobs, static_cast<int>(grid.cases.size()));
-  GridOptions of_case = options;
-  of_case.jobs = options.executor ? options.jobs : options.jobs / std::max(1, at_once);
-  // Runs in its own process, which owns the grid.
+  // Runs in its own process, which needs the runs and its own case only.
   const auto work = [&](const JobSpec& job, const Channel& channel) {
-    grid.cases[job.of_case] = all_jobs.planned(job), of_case.share = static_cast<int>(job.part);
-    run_case(grid, grid.cases[job.of_case], engines, of_case, channel);
+    GridOptions of_case = options;
+    of_case.jobs = options.executor ? options.jobs : options.jobs / std::max(1, at_once);
+    of_case.share = static_cast<int>(job.part);
+    Results own;
+    own.runs = grid.runs, own.engines = grid.engines, own.cases.resize(grid.cases.size());
+    own.cases[job.of_case] = all_jobs.planned(job);
+    run_case(own, own.cases[job.of_case], engines, of_case, channel);
   };
   const auto on_message = [&](std::size_t job, const std::string& message) {
     using Part = MessageSubject::Part;

@@ -6,25 +6,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 
+#include "cases/runner/platform/platform.h"
 #include "core/base/error.h"
 
 namespace rigor {
@@ -39,23 +32,18 @@ constexpr const char *kPartial = ".rigor-partial", *kTrajectories = "trajectorie
 
 constexpr ino_t kNoInode = static_cast<ino_t>(-1);  // for an empty path, and for one that does not exist
 
-ino_t inode_of(const fs::path& path) {
-  struct stat about {};
-  return stat(path.c_str(), &about) == 0 ? about.st_ino : 0;
-}
-
 // The lock's descriptor; none if another run holds it. A lock file that its holder has removed meanwhile locks nothing.
 std::optional<int> try_to_lock(const fs::path& partial) {
+  Platform& platform = the_platform();
   const fs::path file = partial / "lock";
   for (;;) {
-    fs::create_directories(partial);
-    const int lock = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    platform.make_folders(partial);
+    const int lock = platform.open(file, O_RDWR | O_CREAT);
     if (lock < 0 && errno == ENOENT) continue;
     if (lock < 0) fail(errno, file);
-    const int failure = flock(lock, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
-    struct stat about {};
-    if (failure == 0 && fstat(lock, &about) == 0 && about.st_ino == inode_of(file)) return lock;
-    close(lock);
+    const int failure = platform.lock(lock) == 0 ? 0 : errno;
+    if (failure == 0 && platform.inode(lock) == platform.inode(file)) return lock;
+    platform.close(lock);
     if (failure == EWOULDBLOCK) return {};
     if (failure != 0) fail(failure, file);
   }
@@ -66,7 +54,7 @@ std::optional<int> lock_within_seconds(const fs::path& partial) {
   constexpr int kTries = 100;
   for (int i = 0; i < kTries; ++i) {
     if (const auto lock = try_to_lock(partial)) return lock;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    the_platform().sleep(std::chrono::milliseconds(20));
   }
   return {};
 }
@@ -78,57 +66,37 @@ bool is_trajectory(const fs::path& path) {
   return path.extension() == ".csv" && first != std::string::npos && name.find("--", first + 2) != std::string::npos;
 }
 
-void write_file(const fs::path& path, const std::string& text) {
-  errno = 0;
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(errno == 0 ? "it could not be written" : std::strerror(errno));
-}
-
 // At no time is there no folder of trajectories; where the file system cannot exchange two, one goes before the other
 // comes.
 void exchange(const fs::path& fresh, const fs::path& old) {
-  if (renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) return;
-  if (fs::exists(old)) fs::rename(old, fresh.string() + ".old");
-  fs::rename(fresh, old);
+  Platform& platform = the_platform();
+  if (platform.exchange(fresh, old)) return;
+  if (platform.exists(old)) platform.rename(old, fresh.string() + ".old");
+  platform.rename(fresh, old);
 }
 
 // Every step here may be interrupted and repeated by another process. A file in place is no longer staged. The inode in
 // `ready` distinguishes the staged folder of trajectories from the one that it replaced.
 void put_into_place(const fs::path& staged, const fs::path& folder) {
-  std::ifstream ready(staged / kReady);
+  Platform& platform = the_platform();
+  const ReadFile read = read_file(staged / kReady);
+  std::istringstream ready(read.bytes);
   ino_t fresh = 0;
   std::vector<std::string> not_written;
   ready >> fresh;
   for (std::string name; ready >> name;) not_written.push_back(name);
-  if (!ready.eof()) throw std::runtime_error("what is ready could not be read");
-  if (inode_of(staged / kTrajectories) == fresh) exchange(staged / kTrajectories, folder / kTrajectories);
-  for (const fs::directory_entry& entry : fs::directory_iterator(staged / "reports"))
-    fs::rename(entry.path(), folder / entry.path().filename());
-  for (const std::string& name : not_written) fs::remove(folder / name);
-  fs::remove(staged / kReady);
+  if (!read.is_whole) throw std::runtime_error("what is ready could not be read");
+  if (platform.inode(staged / kTrajectories) == fresh) exchange(staged / kTrajectories, folder / kTrajectories);
+  for (const fs::path& file : platform.entries(staged / "reports")) platform.rename(file, folder / file.filename());
+  for (const std::string& name : not_written) platform.remove(folder / name);
+  platform.remove(staged / kReady);
 }
 
-// Publishes in a separate process and session, so that killing this process does not interrupt it. If that process
-// fails or is killed, this one continues from there.
+// Publishes in a separate process, so that killing this one does not interrupt it. If that process fails or is killed,
+// this one continues from there.
 void put_into_place_unstopped(const fs::path& staged, const fs::path& folder) {
-  const pid_t child = fork();
-  if (child < 0) return put_into_place(staged, folder);
-  if (child == 0) {
-    setsid();
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
-    try {
-      put_into_place(staged, folder);
-      _exit(0);
-    } catch (const std::exception&) {
-      _exit(1);
-    }
-  }
-  int status = 1;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (status == 0 || !fs::exists(staged / kReady)) return;
+  if (the_platform().do_unstopped([&] { put_into_place(staged, folder); }) || !the_platform().exists(staged / kReady))
+    return;
   try {
     put_into_place(staged, folder);
   } catch (const std::exception& error) {
@@ -139,20 +107,19 @@ void put_into_place_unstopped(const fs::path& staged, const fs::path& folder) {
 }
 
 void check_what_stands_there(const fs::path& folder, const std::vector<std::string>& file_names) {
-  std::error_code no_matter;
   for (const std::string& name : file_names) {
-    if (fs::exists(folder / name, no_matter) && !fs::is_regular_file(folder / name))
+    if (the_platform().exists(folder / name) && !the_platform().is_file(folder / name))
       throw InputError(fmt::format("'{}' in it is no file", name));
   }
   for (const char* name : {kTrajectories, kPartial}) {
-    if (fs::exists(folder / name, no_matter) && !fs::is_directory(folder / name))
+    if (the_platform().exists(folder / name) && !the_platform().is_folder(folder / name))
       throw InputError(fmt::format("'{}' in it is no folder", name));
   }
 }
 
 void clear_all_but(const fs::path& folder, const std::set<std::string>& names) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (!names.contains(entry.path().filename().string())) fs::remove_all(entry.path());
+  for (const fs::path& entry : the_platform().entries(folder)) {
+    if (!names.contains(entry.filename().string())) the_platform().remove_all(entry);
   }
 }
 
@@ -166,14 +133,14 @@ OutputFolder::OutputFolder(const std::string& path, const std::vector<std::strin
     const auto lock = lock_within_seconds(partial_);
     if (!lock) throw InputError("another run is writing to it");
     lock_ = *lock;
-    if (fs::exists(staged_ / kReady)) put_into_place_unstopped(staged_, folder_);
+    if (the_platform().exists(staged_ / kReady)) put_into_place_unstopped(staged_, folder_);
     clear_all_but(partial_,
                   resume ? std::set<std::string>{"lock", "journals", kTrajectories} : std::set<std::string>{"lock"});
     for (const fs::path& inside :
          {partial_ / kTrajectories, partial_ / "journals", staged_ / kTrajectories, staged_ / "reports"})
-      fs::create_directories(inside);
+      the_platform().make_folders(inside);
   } catch (const std::exception& error) {
-    if (lock_ >= 0) close(lock_);
+    if (lock_ >= 0) the_platform().close(lock_);
     const auto* of_files = dynamic_cast<const fs::filesystem_error*>(&error);
     throw InputError(fmt::format("--out {}: cannot be written: {}; give a folder that can be made or written", path,
                                  of_files ? of_files->code().message() : error.what()));
@@ -185,15 +152,15 @@ OutputFolder::OutputFolder(const std::string& path)
 
 OutputFolder::~OutputFolder() {
   if (is_helper_) return;
-  std::error_code no_matter;
+  Platform& platform = the_platform();
   if (is_kept_) {
-    if (!fs::exists(staged_ / kReady, no_matter)) fs::remove_all(staged_, no_matter);
+    if (!platform.exists(staged_ / kReady)) platform.try_to_remove_all(staged_);
   } else {
     // Writes first what marks the trajectories as complete, and last what keeps others out.
-    for (const char* name : {"journals", "staged", kTrajectories, kReady}) fs::remove_all(partial_ / name, no_matter);
-    fs::remove(partial_ / "lock", no_matter), fs::remove(partial_, no_matter);
+    for (const char* name : {"journals", "staged", kTrajectories, kReady}) platform.try_to_remove_all(partial_ / name);
+    platform.try_to_remove(partial_ / "lock"), platform.try_to_remove(partial_);
   }
-  close(lock_);
+  platform.close(lock_);
 }
 
 void OutputFolder::write(const std::string& file_name, const std::string& text) {
@@ -201,33 +168,31 @@ void OutputFolder::write(const std::string& file_name, const std::string& text) 
   try {
     write_file(file, text);
   } catch (const std::exception&) {
-    std::error_code no_matter;
-    fs::remove(file, no_matter);
+    the_platform().try_to_remove(file);
     throw;
   }
 }
 
 void OutputFolder::stage_trajectories(const std::vector<std::string>& trajectories) const {
+  Platform& platform = the_platform();
   for (const std::string& name : trajectories) {
-    std::error_code not_linked;
-    fs::create_hard_link(partial_ / kTrajectories / name, staged_ / kTrajectories / name, not_linked);
-    if (not_linked) fs::copy_file(partial_ / kTrajectories / name, staged_ / kTrajectories / name);
+    const fs::path grown = partial_ / kTrajectories / name, staged = staged_ / kTrajectories / name;
+    if (!platform.link(grown, staged)) platform.copy(grown, staged);
   }
-  if (!fs::exists(folder_ / kTrajectories)) return;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / kTrajectories)) {
-    const fs::path there = staged_ / kTrajectories / entry.path().filename();
-    if (!is_trajectory(entry.path()) && !fs::exists(there))
-      fs::copy(entry.path(), there, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+  if (!platform.exists(folder_ / kTrajectories)) return;
+  for (const fs::path& old : platform.entries(folder_ / kTrajectories)) {
+    const fs::path there = staged_ / kTrajectories / old.filename();
+    if (!is_trajectory(old) && !platform.exists(there)) platform.copy(old, there);
   }
 }
 
 void OutputFolder::publish(const std::vector<std::string>& trajectories) {
   stage_trajectories(trajectories);
-  put_in_place(inode_of(staged_ / kTrajectories));
+  put_in_place(the_platform().inode(staged_ / kTrajectories));
 }
 
 void OutputFolder::publish_files() {
-  fs::remove_all(staged_ / kTrajectories);
+  the_platform().remove_all(staged_ / kTrajectories);
   put_in_place(kNoInode);
 }
 
@@ -235,11 +200,36 @@ void OutputFolder::put_in_place(ino_t of_trajectories) {
   assert(!is_helper_);
   std::string ready = fmt::format("{}\n", of_trajectories);
   for (const std::string& name : file_names_) {
-    if (!fs::exists(staged_ / "reports" / name)) ready += name + "\n";
+    if (!the_platform().exists(staged_ / "reports" / name)) ready += name + "\n";
   }
   write_file(partial_ / kReady, ready);
-  fs::rename(partial_ / kReady, staged_ / kReady);  // there as a whole, or not at all
+  the_platform().rename(partial_ / kReady, staged_ / kReady);  // there as a whole, or not at all
   put_into_place_unstopped(staged_, folder_);
+}
+
+std::vector<std::string> faults_of_writing(OutputFolder& folder, const std::vector<OutputFile>& files,
+                                           const std::vector<std::string>& trajectories, bool can_resume) {
+  std::vector<std::string> faults;
+  std::size_t written = 0;
+  for (const OutputFile& file : files) {
+    try {
+      folder.write(file.name, file.text());
+      ++written;
+    } catch (const std::exception& error) {
+      faults.push_back(fmt::format("{} was not written: {}", file.name, error.what()));
+    }
+  }
+  if (!faults.empty() && can_resume) folder.keep();
+  if (written == 0) {
+    faults.push_back(can_resume ? "no report was written, so no output was changed; --resume continues the run"
+                                : "no report was written, so no output was changed");
+    return faults;
+  }
+  folder.publish(trajectories);
+  if (!faults.empty())
+    faults.push_back(can_resume ? "the other outputs are in place; --resume writes all of them again"
+                                : "the other outputs are in place");
+  return faults;
 }
 
 }  // namespace rigor

@@ -7,6 +7,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,5 +48,16 @@ class OutputFolder {
   int lock_ = -1;
   bool is_kept_ = false, is_helper_ = false;
 };
+
+struct OutputFile {
+  std::string name;
+  std::function<std::string()> text;
+};
+
+// Writes each file by itself, then moves all that could be written into place, with these trajectories. Returns a
+// sentence for each that could not. The folder then keeps the results if --resume can continue from them. Without any
+// file, no output is changed.
+std::vector<std::string> faults_of_writing(OutputFolder& folder, const std::vector<OutputFile>& files,
+                                           const std::vector<std::string>& trajectories, bool can_resume);
 
 }  // namespace rigor

@@ -4,40 +4,14 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstring>
 #include <memory>
 
 #include "cases/runner/forked_child.h"
+#include "cases/runner/platform/platform.h"
 
 namespace rigor {
 namespace {
-
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
-volatile std::sig_atomic_t caught_signal = 0;
-
-// While it lives, the first SIGINT, SIGTERM or SIGHUP is noted; a second one acts as if Rigor had not asked.
-class SignalWatch {
- public:
-  SignalWatch() {
-    caught_signal = 0;
-    for (std::size_t i = 0; i < std::size(kSignals); ++i) {
-      struct sigaction note {};
-      note.sa_handler = [](int signal) { caught_signal = signal; };
-      note.sa_flags = SA_RESETHAND;
-      sigaction(kSignals[i], nullptr, &before_[i]);
-      if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &note, nullptr);
-    }
-  }
-  ~SignalWatch() {
-    for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &before_[i], nullptr);
-  }
-  SignalWatch(const SignalWatch&) = delete;
-  SignalWatch& operator=(const SignalWatch&) = delete;
-
- private:
-  struct sigaction before_[std::size(kSignals)]{};
-};
 
 struct Heartbeat {
   std::function<void()> call = {};
@@ -67,7 +41,7 @@ void wait_for_news(const Children& children, int tick) {
     }
     one_is_ending |= child->has_closed_its_pipes();
   }
-  poll(watched.data(), watched.size(), one_is_ending ? kShortTick : tick);
+  the_platform().wait_for_input(watched, one_is_ending ? kShortTick : tick);
 }
 
 class JobList : public JobFeed {
@@ -118,7 +92,7 @@ void run_jobs(const std::vector<Job>& jobs, int at_once,
 
 void run_jobs(JobFeed& feed, int at_once, const std::function<void(std::size_t, const std::string&)>& on_message,
               const std::function<void(std::size_t, const JobEnd&)>& on_end) {
-  const SignalWatch watch;
+  const std::unique_ptr<SignalWatch> watch = the_platform().watch_signals();
   Children children;
   while (!feed.is_over() || !children.empty()) {
     while (static_cast<int>(children.size()) < at_once) {
@@ -128,9 +102,9 @@ void run_jobs(JobFeed& feed, int at_once, const std::function<void(std::size_t, 
     }
     wait_for_news(children, feed.longest_wait());
     beat();
-    if (caught_signal) {
+    if (const int signal = watch->caught()) {
       children.clear();
-      throw Interrupted{caught_signal};
+      throw Interrupted{signal};
     }
     for (auto& child : children) {
       const bool has_ended = child->has_ended();  // checked first, so that all output before its end is available

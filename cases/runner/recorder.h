@@ -26,7 +26,7 @@ class Recorder {
                            const std::vector<NamedSeries>& series, const TruthFacts& facts) const = 0;
   // Of a recording with trials: whether it keeps each trial, or else the first one alone.
   virtual bool keeps_each_trial() const { return false; }
-  // The cell failed: removes files that were kept for it.
+  // Removes files that were kept for a cell: before it runs, and if it fails.
   virtual void discard(const Cell& cell) const = 0;
   // Whether the files of a cell still exist, for a run that continues from another's journal.
   virtual bool still_has(const Cell& cell) const = 0;

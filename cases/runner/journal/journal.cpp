@@ -2,14 +2,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
+#include "cases/runner/platform/platform.h"
 #include "core/base/content_hash.h"
 
 namespace rigor {
@@ -46,35 +44,42 @@ bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Jo
 
 Journal::Journal(const std::string& file, const std::string& plan) {
   if (file.empty()) return;
-  std::ostringstream read;  // as far as it can be
-  read << std::ifstream(file, std::ios::binary).rdbuf();
-  const std::string bytes = read.str(), title = title_of(plan);
+  const std::string bytes = read_file(file).bytes, title = title_of(plan);
   std::size_t whole = 0;
   if (bytes.starts_with(title)) {
     whole = title.size();
     std::size_t job = 0;
-    for (Record record; take_record(bytes, whole, job, record);) found_[job] = record;
+    for (Record record; take_record(bytes, whole, job, record);) {
+      record.message.empty() ? void(found_.erase(job)) : void(found_[job] = record);
+    }
   }
-  descriptor_ = open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = the_platform().open(file, O_WRONLY | O_CREAT);
   // A failed write is ignored; the run is not affected.
-  if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) return;
-  lseek(descriptor_, 0, SEEK_END);
+  if (descriptor_ < 0) return;
+  if (the_platform().truncate(descriptor_, whole) != 0) {
+    the_platform().close(descriptor_), descriptor_ = -1;
+    return;
+  }
   if (whole == 0) append(title);
 }
 
 Journal::~Journal() {
-  if (descriptor_ >= 0) close(descriptor_);
+  if (descriptor_ >= 0) the_platform().close(descriptor_);
 }
 
 void Journal::forget_if(const std::function<bool(const Record&)>& is_wrong) {
-  std::erase_if(found_, [&](const auto& one) { return is_wrong(one.second); });
+  std::erase_if(found_, [&](const auto& one) {
+    if (!is_wrong(one.second)) return false;
+    add(one.first, {});  // for the next run, too: its trajectory may be there again by then, of another try
+    return true;
+  });
 }
 
 void Journal::append(const std::string& bytes) {
   for (std::size_t at = 0; descriptor_ >= 0 && at < bytes.size();) {
-    const ssize_t count = write(descriptor_, bytes.data() + at, bytes.size() - at);
+    const ssize_t count = the_platform().write(descriptor_, bytes.data() + at, bytes.size() - at);
     if (count > 0) at += static_cast<std::size_t>(count);
-    if (count < 0 && errno != EINTR) close(descriptor_), descriptor_ = -1;
+    if (count < 0 && errno != EINTR) the_platform().close(descriptor_), descriptor_ = -1;
   }
 }
 

@@ -25,7 +25,7 @@ class Journal {
 
   const std::map<std::size_t, Record>& found() const { return found_; }  // by job
   void add(std::size_t job, const Record& record);
-  // As if these had never been found. A later record of the same job counts instead.
+  // As if these had never been found, in later runs, too. A later record of the same job counts instead.
   void forget_if(const std::function<bool(const Record&)>& is_wrong);
 
  private:

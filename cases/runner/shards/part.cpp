@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "cases/results/result_json.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/case_process.h"
+#include "cases/runner/platform/platform.h"
 #include "cases/runner/stable_step.h"
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
@@ -250,13 +249,13 @@ std::vector<std::string> missing_shards(const std::vector<Part>& parts) {
 
 Part read_part(const std::string& folder) {
   const std::filesystem::path file = std::filesystem::path(folder) / kPartFile;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
+  const ReadFile read = read_file(file);
+  if (!read.is_whole)
     throw InputError(
         fmt::format("{}: holds no part of a grid: there is no '{}' in it that can be read; give folders "
                     "that 'rigor run --shard K/N --out DIR' wrote",
                     folder, kPartFile));
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string& bytes = read.bytes;
   try {
     std::size_t at = std::min(bytes.find('\n'), bytes.size());
     const Json json = parse_json(bytes.substr(0, at));
