@@ -29,6 +29,19 @@ double unit_of(const Joint& joint, double length) {
   return length;
 }
 
+// The law of a servo without a bound, which acts always, towards one target, is the same at all times.
+bool has_events_of_servo(const Motor& motor) {
+  if (!motor.servo) return false;
+  const Servo& servo = *motor.servo;
+  return servo.period > 0 || std::isfinite(servo.most) || !servo.target.is_constant() || motor.from > 0 ||
+         std::isfinite(motor.until);
+}
+bool has_events_of_servos(const Scene& scene, int joint) {
+  return std::any_of(scene.motors.begin(), scene.motors.end(), [joint](const Motor& motor) {
+    return motor.joint == joint && motor.plus.empty() && has_events_of_servo(motor);
+  });
+}
+
 }  // namespace
 
 JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, Joints& joints, Of what)
@@ -42,7 +55,8 @@ JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, J
       if (motor.joint == static_cast<int>(k) && motor.speed) motors.push_back(motor);
     }
     const bool has_limits = joint.has_limits() && what == Of::limits_and_motors;
-    std::vector<ServoDrive>* const servos = what == Of::limits_and_motors ? loads.servos_of(k) : nullptr;
+    const bool has_events = what == Of::limits_and_motors && has_events_of_servos(scene, static_cast<int>(k));
+    std::vector<ServoDrive>* const servos = has_events ? loads.servos_of(k) : nullptr;
     if (!has_limits && motors.empty() && !servos) continue;
     constexpr double kNone = std::numeric_limits<double>::infinity();
     stops_.push_back({k, JointCoordinate(scene, joint), has_limits ? joint.lower : -kNone,
@@ -54,7 +68,7 @@ JointStops::JointStops(const Scene& scene, const System& system, Loads& loads, J
 }
 
 bool JointStops::are_in(const Scene& scene) {
-  return has_speed_motors(scene) || has_servos(scene) ||
+  return has_speed_motors(scene) || std::any_of(scene.motors.begin(), scene.motors.end(), has_events_of_servo) ||
          std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) { return joint.has_limits(); });
 }
 

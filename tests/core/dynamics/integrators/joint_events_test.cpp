@@ -216,6 +216,23 @@ BOOST_AUTO_TEST_CASE(a_motor_that_is_too_weak_pushes_with_all_it_has) {
 }
 
 // As a brake (speed 0) it holds a pendulum that weighs less than it, for ever and at its place.
+// No step of its own looks for events then, and the motion is the same.
+BOOST_AUTO_TEST_CASE(a_servo_without_a_bound_moves_as_one_that_never_reaches_its_bound) {
+  const auto is_same = [](const std::string& method, double kd) {
+    Motor free{};
+    free.servo = Servo{.target = TimeTable::constant(1), .kp = 8, .kd = kd, .target_speed = 0.2};
+    Motor bounded = free;
+    bounded.servo->most = 1e6;
+    const auto [x, rate] = after(wheel(free), method, 0.01, 2);
+    const auto [other, other_rate] = after(wheel(bounded), method, 0.01, 2);
+    BOOST_TEST(std::abs(x - other) < 1e-13);
+    BOOST_TEST(std::abs(rate - other_rate) < 1e-12);
+    BOOST_TEST(std::abs(x) > 0.1);
+  };
+  for_each_method_with_joints([&](const Integrator& method) { is_same(method.name, 0); });
+  for (const char* method : {"dormand-prince", "rk4", "semi-implicit-euler"}) is_same(method, 0.5);
+}
+
 BOOST_AUTO_TEST_CASE(a_motor_of_no_speed_is_a_brake) {
   Scene scene = test::suite_scene("joints/pendulum-90");
   for_each_method_with_joints([&](const Integrator& row) {
