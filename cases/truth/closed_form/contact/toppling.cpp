@@ -59,7 +59,10 @@ class Toppling final : public BodyMotion {
     const ExtendedVec3 arm = extended(box.position) - edge_.at, n = ground_.normal(), side = edge_.axis.cross(n);
     radius_ = arm.norm();
     const ExtendedMat3 R = q_.toRotationMatrix();
-    const Extended about = edge_.axis.dot(R * extended(box.inertia) * R.transpose() * edge_.axis) / box.mass;
+    const ExtendedVec3 turning = R * extended(box.inertia) * R.transpose() * edge_.axis;
+    if (is_cylinder() && turning.cross(edge_.axis).norm() > 1e-12L * turning.norm())
+      ground_.refuse(box, "turns on one point, and not about a principal axis");
+    const Extended about = edge_.axis.dot(turning) / box.mass;
     stiffness_ = ground_.pressing() * radius_ / (about + radius_ * radius_);
     nodes_ = {{std::atan2(arm.dot(side), arm.dot(n)), extended(box.angular_velocity).dot(edge_.axis)}};
     while (static_cast<Extended>(nodes_.size() - 1) * kNode < duration) {
