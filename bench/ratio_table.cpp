@@ -88,7 +88,7 @@ void add_joints(std::vector<RatioRow>& rows) {
 }
 
 // Piles of hulls and cylinders. An engine that lacks the shape, or one of its pairs, says so in its row. Those of DART
-// and MuJoCo, which take minutes, are there for --benchmark_filter.
+// and MuJoCo, and piles of 1000, which take minutes, are there for --benchmark_filter.
 void add_solids(std::vector<RatioRow>& rows, const std::string& impulse, const std::string& quick) {
   for (const char* scene : {"hulls", "cube-hulls", "cylinders"}) {
     for (const std::string& other : {kBullet, quick})
@@ -96,9 +96,6 @@ void add_solids(std::vector<RatioRow>& rows, const std::string& impulse, const s
                       step(scene, 216, other), RatioRow::Kind::times_as_fast,
                       other == kBullet && scene != std::string_view("cylinders") ? 3.0 : 0.0});
   }
-  for (const char* scene : {"hulls", "cube-hulls"})
-    rows.push_back({title(scene, 1000, impulse) + " against Bullet", step(scene, 1000, impulse),
-                    step(scene, 1000, kBullet), RatioRow::Kind::times_as_fast, 3});
 }
 
 std::vector<RatioRow> all_rows() {
