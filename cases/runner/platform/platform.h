@@ -32,7 +32,7 @@ class Platform {
 
   virtual ~Platform() = default;
 
-  // As the calls of these names: -1, and errno.
+  // They act as the calls of these names: -1, and errno.
   virtual int open(const Path& file, int flags) = 0;
   virtual ssize_t read(int descriptor, char* bytes, std::size_t count) = 0;
   virtual ssize_t write(int descriptor, const char* bytes, std::size_t count) = 0;
@@ -44,7 +44,7 @@ class Platform {
   virtual bool exchange(const Path& a, const Path& b) = 0;    // false: not here, or one of them does not exist
   virtual bool link(const Path& file, const Path& name) = 0;  // false: not here
 
-  // As those of std::filesystem, which throw filesystem_error.
+  // They act as those of std::filesystem, which throw filesystem_error.
   virtual bool exists(const Path& path) noexcept = 0;
   virtual bool is_file(const Path& path) = 0;
   virtual bool is_folder(const Path& path) = 0;

@@ -1,16 +1,20 @@
 // A body that touches a plane at one point of a round surface, and rolls or slides there: rattleback, disk, tippe-top.
-// With r from its centre of mass to the contact point, r' its rate, n the plane's normal, g the gravity against it and
-// F the plane's force for each kg, in two forms:
+//   r, r'   from its centre of mass to the contact point, and the rate of that
+//   n, g    the plane's normal, and the gravity against it
+//   F       the plane's force for each kg
+// Its rotation is solved in two forms, of which the first one's distance from the second is the truth's error:
 //   body rates:  I w' = -w x I w + m r x F                                              about the centre
 //   momentum:    M' = m g r x n - m r' x v,  M = I w - m r x v                          about the contact point
-// (Goldstein, Classical Mechanics, 3rd ed., section 1.2, for the momentum about a moving point). What rolls has
+// (Goldstein, Classical Mechanics, 3rd ed., section 1.2, for the momentum about a moving point). A body that rolls has
 // v = r x w, which gives F and turns I into I - m [r]² (Garcia and Hubbard, Spin reversal of the rattleback: theory and
-// experiment, Proc. R. Soc. A 418, 1988). What slides has F = N (n - mu u/|u|) with the slip u = v + w x r, and N from
-//   n . (v' + w' x r + w x r') = 0.
+// experiment, Proc. R. Soc. A 418, 1988). A body that slides has F = N (n - mu u/|u|) with the slip u = v + w x r. Its
+// N follows from n . (v' + w' x r + w x r') = 0.
+//
 // The surface x = c + G u/sqrt(u . G u) has its outward normal along u. With G = A Aᵀ and the half-axes A it is an
-// ellipsoid about c; without a third half-axis, the rim of a disk. The first form's distance from the second is the
-// truth's error. They share r, r' and N, which the tests check: the contact stays closed, what rolls stays at rest and
-// keeps its energy, and a ball that slides keeps Jellett's integral and loses what friction takes. The truth ends where
+// ellipsoid about c; without a third half-axis, the rim of a disk.
+//
+// Both forms share r, r' and N. The tests check these: the contact stays closed, a body that rolls keeps its energy and
+// stays at rest there, a ball that slides keeps Jellett's integral and loses what friction takes. The truth ends where
 // the plane would have to pull, where friction would leave its cone, and where a slip ends.
 #include <fmt/format.h>
 
@@ -194,7 +198,7 @@ class RoundMotion {
     return {freely + normal * of_push, goes_on ? Vector(normal * along) : no_push()};
   }
 
-  // From there on no solution goes on.
+  // No solution goes on from there.
   static Vector no_push() { return Vector::Constant(std::numeric_limits<Real>::quiet_NaN()); }
 
   void evaluate(const State& state, State& change) const {

@@ -25,8 +25,8 @@ inline Tangents tangents_of(const Vec3& n) {
 }
 
 // Goes uphill from n over the unit sphere. Steps are accepted only if they gain, so that the method also ends at a
-// kink, where it soon gives up: of 300,000 random pairs of cylinders and ellipsoids, with axes up to a hundred times as
-// long as others, it finds the same axis as with all 40 rounds, to 1e-13. `size`: m, of both shapes.
+// kink. It soon gives up there: on 300,000 random pairs of cylinders and ellipsoids it found the same axes as with more
+// rounds, to 1e-13 of the size. Their half-axes differed by up to a hundred times. `size`: m, of both shapes.
 template <typename Separation>
 Vec3 uphill(const Separation& separation, Vec3 n, double size) {
   constexpr int kMostRounds = 40, kMostHalvings = 24, kShort = 8, kMostAtKink = 2;

@@ -79,7 +79,7 @@ class ActingEngine : public Engine {
     static void act(Way way, double x) {
       SimulatedPlatform& platform = cell_stage->platform();
       platform.breathe();
-      if (way == Way::waits) platform.sleep(std::chrono::milliseconds(1000));  // four tenths of what it may
+      if (way == Way::waits) platform.sleep(std::chrono::milliseconds(2000));  // eight tenths of what it may
       if (way == Way::computes) platform.spend(0.8 * kLimit);
       if (way == Way::aborts) platform.die_of(SIGABRT);
       if (way == Way::exits) platform.exit_now(3);

@@ -1,4 +1,4 @@
-// Where features end: an edge at its corners, a side at its edges, a flat region of triangles at its border,
+// Features end: an edge at its corners, a side at its edges, a flat region of triangles at its border,
 // a rim where it turns over.
 #pragma once
 
