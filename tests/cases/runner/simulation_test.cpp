@@ -10,13 +10,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "cases/case/selection.h"
-#include "cases/results/spread.h"
 #include "cases/runner/build_identity.h"
 #include "cases/runner/grid.h"
 #include "cases/runner/output_folder.h"
