@@ -139,19 +139,6 @@ void read_limits(const TableReader& table, const Vocabulary& words, GateTable& o
   }
 }
 
-// The words that select scenes: those of features, their parts before a colon, and two properties.
-Keys known_scene_words() {
-  Keys words = {"damping", "gravity"};
-  for (const FeatureWord& row : feature_words()) {
-    if (row.feature == Feature::wrench) continue;
-    words.push_back(row.word);
-    words.push_back(row.word.substr(0, row.word.find(':')));
-  }
-  std::sort(words.begin(), words.end());
-  words.erase(std::unique(words.begin(), words.end()), words.end());
-  return words;
-}
-
 // A word may have ! before it.
 std::vector<std::string> read_scene_words(const TomlValue& value) {
   static const Keys kKnown = known_scene_words();
@@ -168,6 +155,18 @@ std::vector<std::string> read_scene_words(const TomlValue& value) {
 }
 
 }  // namespace
+
+Keys known_scene_words() {
+  Keys words = {"damping", "gravity"};
+  for (const FeatureWord& row : feature_words()) {
+    if (row.feature == Feature::wrench) continue;
+    words.push_back(row.word);
+    words.push_back(row.word.substr(0, row.word.find(':')));
+  }
+  std::sort(words.begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return words;
+}
 
 const Keys& gate_keys() {
   static const Keys keys = {"metric",         "engines", "dt",          "max",        "min",

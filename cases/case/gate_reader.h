@@ -35,6 +35,8 @@ GateTable read_family_gate_table(const TableReader& table, const Keys& cases,
                                  const Vocabulary& words);  // family.toml beside them, by file
 const Keys& gate_keys();
 const Keys& family_gate_keys();
+// The words that select scenes: those of features, their parts before a colon, and two properties. Sorted.
+Keys known_scene_words();
 
 // Of a case that names them itself: throws InputError for a step that its run does not have.
 std::vector<Gate> gates_of(const GateTable& table, const Case& of);

@@ -1,5 +1,4 @@
-// Compares family.schema.json, which editors use for completion, with the reader's tables, and with case.schema.json in
-// the common parts.
+// Compares family.schema.json, which editors use for completion, with the reader's tables.
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
 #include <set>
@@ -62,23 +61,6 @@ BOOST_AUTO_TEST_CASE(has_the_keys_of_the_reader_and_no_others) {
   const Keys& read = family_gate_keys();
   BOOST_TEST((keys_of(gate_of(schema()).at("properties")) == std::set<std::string>(read.begin(), read.end())));
   BOOST_TEST((keys_of(schema().at("properties")) == std::set<std::string>{"gate"}));
-}
-
-// A metric, a step or a bound is the same in both files, to the letter.
-BOOST_AUTO_TEST_CASE(says_of_a_gate_what_the_schema_of_a_case_says) {
-  const Json of_case = read(RIGOR_SOURCE_DIR "/cases/case/case.schema.json");
-  const Json& own = gate_of(schema()).at("properties");
-  for (const auto& [key, rule] : gate_of(of_case).at("properties").items()) BOOST_TEST((own.at(key) == rule), key);
-  BOOST_TEST((gate_of(schema()).at("required") == gate_of(of_case).at("required")));
-  int shared = 0;
-  for (const auto& [name, rule] : schema().at("definitions").items()) {
-    if (name == "gate" || !of_case.at("definitions").contains(name)) continue;
-    BOOST_TEST((of_case.at("definitions").at(name) == rule), name);
-    ++shared;
-  }
-  BOOST_TEST(shared == 6);
-  BOOST_TEST((schema().at("definitions").at("truth_kind").at("enum") ==
-              of_case.at("definitions").at("truth").at("properties").at("kind").at("enum")));
 }
 
 BOOST_AUTO_TEST_CASE(has_the_words_for_scenes_of_the_reader_and_no_others) {
