@@ -137,6 +137,20 @@ std::map<std::string, Mistake> mistakes() {
                                        }
                                      }),
                                      "joints"};
+  all["a universal joint taken for a ball"] = {on_load([](Scene& s) {
+                                                 for (Joint& joint : s.joints) {
+                                                   if (const auto* cross = std::get_if<UniversalJoint>(&joint.type))
+                                                     joint.type = BallJoint{cross->anchor};
+                                                 }
+                                               }),
+                                               "joints"};
+  all["a slider that turns"] = {on_load([](Scene& s) {
+                                  for (Joint& joint : s.joints) {
+                                    if (const auto* slider = std::get_if<SliderJoint>(&joint.type))
+                                      joint.type = CylindricalJoint{s.bodies[joint.b].position, slider->axis};
+                                  }
+                                }),
+                                "joints"};
   all["gravity off by a few roundings"] = {on_load([](Scene& s) { s.gravity *= 1 + 3e-14; }), "free-fall"};
   all["springs at the centre"] = {on_load([](Scene& s) {
                                     for (Spring& spring : s.springs) spring.point_b.setZero();
