@@ -3,6 +3,7 @@
 #include "cases/analysis/change_point.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -201,6 +202,16 @@ BOOST_AUTO_TEST_CASE(the_exact_distribution_of_students_statistic_bounds_the_rat
     BOOST_TEST(sum <= 0.01, count);
     BOOST_TEST(rate <= sum + 0.0015, count);  // three standard deviations of 20000 series at 0.5 %
   }
+}
+
+// Each is found in what the one before left.
+BOOST_AUTO_TEST_CASE(ever_smaller_changes_have_their_own_places) {
+  std::vector<double> values;
+  for (const double level : {0.0, 100.0, 110.0, 111.0}) values.insert(values.end(), 8, level);
+  const std::vector<std::size_t> rising = change_points(values, 0), expected = {8, 16, 24};
+  BOOST_TEST(rising == expected, boost::test_tools::per_element());
+  std::reverse(values.begin(), values.end());
+  BOOST_TEST(change_points(values, 0) == expected, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

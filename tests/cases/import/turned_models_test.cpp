@@ -55,6 +55,30 @@ bool may_touch(const Scene& scene, const std::string& a, const std::string& b) {
 
 }  // namespace
 
+// A link without moments of inertia is a point of the body that carries it.
+BOOST_AUTO_TEST_CASE(a_point_on_a_body_in_other_axes_adds_to_its_inertia) {
+  const std::string text =
+      "<robot name='r'><link name='arm'><inertial><origin xyz='0.1 0.2 -0.1' rpy='0.3 -0.4 0.5'/><mass value='3'/>"
+      "<inertia ixx='0.5' iyy='0.7' izz='0.9' ixy='0.02' ixz='-0.03' iyz='0.04'/></inertial></link>"
+      "<link name='tip'><inertial><mass value='1'/><inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='0' iyz='0'/>"
+      "</inertial></link><joint name='holds' type='fixed'><parent link='arm'/><child link='tip'/>"
+      "<origin xyz='0.5 -0.2 0.3'/></joint></robot>";
+  const Scene scene = scene_of_text("r.urdf", text);
+  BOOST_TEST_REQUIRE(scene.bodies.size() == 1u);
+  Mat3 whole;
+  whole << 0.5, 0.02, -0.03, 0.02, 0.7, 0.04, -0.03, 0.04, 0.9;
+  const Mat3 turn = (Eigen::AngleAxisd(0.5, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.4, Vec3::UnitY()) *
+                     Eigen::AngleAxisd(0.3, Vec3::UnitX()))
+                        .toRotationMatrix();
+  // Two bodies about their common centre: by the reduced mass and their distance.
+  const Vec3 apart(0.4, -0.4, 0.4);
+  const Mat3 expected = turn * whole * turn.transpose() +
+                        3.0 * 1.0 / 4.0 * (apart.squaredNorm() * Mat3::Identity() - apart * apart.transpose());
+  BOOST_TEST(scene.bodies[0].mass == 4);
+  BOOST_TEST((scene.bodies[0].position - Vec3(0.2, 0.1, 0)).norm() < 1e-14);
+  BOOST_TEST((total_inertia(scene) - expected).cwiseAbs().maxCoeff() < 1e-14);
+}
+
 // The link, its inertia and its box each have axes of their own.
 BOOST_AUTO_TEST_CASE(a_shape_in_other_axes_stands_where_the_file_has_it) {
   const std::string text =
