@@ -24,10 +24,9 @@ void grow_shape(Shape& shape, double by) {
                 [=](Compound& compound) {
                   for (PlacedShape& part : compound.parts) grow_shape(part.shape, by);
                 },
-                [=](Convex& convex) { convex.hull = scaled_hull(*convex.hull, 1 + by / convex.hull->inradius); },
-                [=](Cylinder& cylinder) { cylinder.radius += by, cylinder.length += 2 * by; },
-                [=](Ellipsoid& ellipsoid) { ellipsoid.radii += Vec3::Constant(by); }, [](Plane&) {},
-                [](SurfaceShape&) {}, [=](Sphere& sphere) { sphere.radius += by; }},
+                [=](Cylinder& cylinder) { cylinder.radius += by, cylinder.length += 2 * by; }, [](Plane&) {},
+                [](Mesh&) {}, [](Heightfield&) {}, [=](Sphere& sphere) { sphere.radius += by; },
+                [&](auto&) { shape = scaled_shape(shape, 1 + by / inradius(shape)); }},
       shape);
 }
 

@@ -1,4 +1,8 @@
 #include "cases/report/json/scene_json.h"
+
+#include <array>
+#include <map>
+
 #include "core/base/json.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
@@ -7,7 +11,33 @@ namespace {
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-// The shape as the page draws it: a compound as its parts, and a hull, mesh or height field with its triangles.
+// Triangles share their points: a mesh repeats them for each normal.
+Json triangles_json(const TriangleMesh& mesh) {
+  Json json = {{"points", Json::array()}, {"triangles", Json::array()}};
+  std::map<std::array<double, 3>, std::size_t> index;
+  const auto index_of = [&](int corner) {
+    const Vec3& at = mesh.points[static_cast<std::size_t>(corner)];
+    const auto [place, is_new] = index.try_emplace({at.x(), at.y(), at.z()}, index.size());
+    if (is_new) json["points"].push_back(list(at));
+    return place->second;
+  };
+  for (std::size_t k = 0; k < mesh.corners.size(); k += 3)
+    json["triangles"].push_back(
+        {index_of(mesh.corners[k]), index_of(mesh.corners[k + 1]), index_of(mesh.corners[k + 2])});
+  return json;
+}
+
+// Whether the page draws it from its lengths.
+bool is_drawn_by_lengths(const Shape& shape) {
+  return std::visit(
+      []<typename Type>(const Type&) {
+        return std::is_same_v<Type, Box> || std::is_same_v<Type, Capsule> || std::is_same_v<Type, Cylinder> ||
+               std::is_same_v<Type, Ellipsoid> || std::is_same_v<Type, Plane> || std::is_same_v<Type, Sphere>;
+      },
+      shape);
+}
+
+// The shape as the page draws it: a compound as its parts, any other from its lengths or with triangles.
 Json drawn_shape_json(const Shape& shape) {
   if (const auto* compound = std::get_if<Compound>(&shape)) {
     Json json = {{"type", "compound"}, {"parts", parse_json(shape_json(shape))}};
@@ -16,19 +46,8 @@ Json drawn_shape_json(const Shape& shape) {
     return json;
   }
   Json json = parse_json(shape_json(shape));
-  if (const auto* convex = std::get_if<Convex>(&shape)) {
-    json["triangles"] = Json::array();
-    for (const Hull::Face& face : convex->hull->faces) {
-      for (std::size_t k = 1; k + 1 < face.corners.size(); ++k)
-        json["triangles"].push_back({face.corners[0], face.corners[k], face.corners[k + 1]});
-    }
-  }
-  if (const SurfaceShape* on = surface_in(shape)) {
-    json.erase("heights"), json["points"] = Json::array(), json["triangles"] = Json::array();
-    for (const Vec3& point : on->surface->points) json["points"].push_back(list(point));
-    for (const TriangleSurface::Triangle& triangle : on->surface->triangles)
-      json["triangles"].push_back(triangle.corners);
-  }
+  if (is_drawn_by_lengths(shape)) return json;
+  json.erase("heights"), json.update(triangles_json(drawn_mesh(shape)));
   return json;
 }
 

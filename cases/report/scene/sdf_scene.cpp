@@ -39,11 +39,13 @@ struct SdfGeometry {
   std::string operator()(const Ellipsoid& e) const {
     return fmt::format("<ellipsoid><radii>{}</radii></ellipsoid>", sdf_numbers(e.radii));
   }
-  std::string operator()(const Convex&) const { return ""; }  // SDF has meshes in files of their own alone
-  std::string operator()(const SurfaceShape&) const { return ""; }
-  std::string operator()(const Compound&) const { return ""; }  // its parts are written
   std::string operator()(const Plane& p) const {
     return fmt::format("<plane><normal>{}</normal></plane>", sdf_numbers(p.normal));
+  }
+  // A compound's parts are written one by one. SDF has meshes in files of their own alone.
+  template <typename Other>
+  std::string operator()(const Other&) const {
+    return "";
   }
 };
 

@@ -158,12 +158,12 @@ struct ShapeNodes {
     }
     at = {};
   }
-  void operator()(const Convex& convex) { add_own(convex.drawn()); }
-  void operator()(const SurfaceShape& on) { add_own(on.drawn()); }
-  void operator()(const Cylinder& cylinder) { add_own(cylinder.drawn()); }
   void operator()(const Ellipsoid& ellipsoid) { add(kBall, 2 * ellipsoid.radii); }
-  void add_own(const TriangleMesh& mesh) { add_node(file.add_mesh(mesh, material), Vec3::Ones(), {}); }
   void operator()(const Plane& plane) { add(kSquare, Vec3::Constant(2 * kDrawnPlane), pose_of_plane(plane)); }
+  template <typename Other>
+  void operator()(const Other& other) {
+    add_node(file.add_mesh(other.drawn(), material), Vec3::Ones(), {});
+  }
 };
 
 class GltfTrace : public TraceWriter {

@@ -129,9 +129,9 @@ class Entity {
     }
     at_ = {};
   }
-  void operator()(const Convex& convex) { add_triangles(convex.drawn()); }
-  void operator()(const SurfaceShape& on) { add_triangles(on.drawn()); }
-  void add_triangles(const TriangleMesh& mesh) {
+  template <typename Other>
+  void operator()(const Other& other) {
+    const TriangleMesh mesh = other.drawn();
     Json points = Json::array();
     for (const Vec3& point : mesh.points) points.push_back(xyz(point));
     json_["triangles"].push_back({{"pose", pose_json(at_)},

@@ -32,7 +32,15 @@ struct Extent {
     const Vec3 along = R.col(2).cwiseAbs(), across = (1 - along.array().square()).cwiseMax(0).sqrt().matrix();
     return symmetric(along * (0.5 * c.length) + across * c.radius);
   }
-  Aabb operator()(const Ellipsoid& e) const { return symmetric((R * e.radii.asDiagonal()).rowwise().norm()); }
+  template <typename Solid>
+  requires(!kStandsStill<Solid>) Aabb operator()(const Solid& solid) const {
+    Aabb all;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 along = R.row(k);
+      all.low[k] = along.dot(solid.support(-along)), all.high[k] = along.dot(solid.support(along));
+    }
+    return all;
+  }
   Aabb operator()(const SurfaceShape& on) const {
     const Vec3 middle = R * (0.5 * (on.surface->low + on.surface->high)),
                half = R.cwiseAbs() * (0.5 * (on.surface->high - on.surface->low));

@@ -23,13 +23,13 @@ struct BallsAround {
   void operator()(const Convex& convex) const {
     for (const Vec3& corner : convex.hull->points) add(corner, 0);
   }
-  void operator()(const Cylinder& cylinder) const { add(cylinder.support(n), 0); }
-  void operator()(const Ellipsoid& ellipsoid) const { add(ellipsoid.support(n), 0); }
   void operator()(const Plane& plane) const { add(Vec3::Zero(), plane.bounding_radius()); }
   void operator()(const Sphere& sphere) const { add(Vec3::Zero(), sphere.radius); }
   void operator()(const SurfaceShape& on) const {
     for (const Vec3& corner : on.surface->points) add(corner, 0);
   }
+  template <typename Solid>
+  requires(!kStandsStill<Solid>) void operator()(const Solid& solid) const { add(solid.support(n), 0); }
 
  private:
   void add_ends(double length, double radius) const {
@@ -55,13 +55,8 @@ struct SupportBound {
   }
   double operator()(const Sphere& sphere) const { return centre() + sphere.radius; }
   // A shape that is the hull of balls about points of the body.
-  double operator()(const Compound& compound) const { return of_balls(compound); }
-  double operator()(const Convex& convex) const { return of_balls(convex); }
-  double operator()(const Cylinder& cylinder) const { return of_balls(cylinder); }
-  double operator()(const Ellipsoid& ellipsoid) const { return of_balls(ellipsoid); }
-  double operator()(const Heightfield& field) const { return of_balls(field); }
-  double operator()(const Mesh& mesh) const { return of_balls(mesh); }
-  double of_balls(const Shape& shape) const {
+  template <typename Other>
+  double operator()(const Other& shape) const {
     const Mat3 R = state.rotation(body);
     double most = -std::numeric_limits<double>::infinity();
     // Along this, the point that moves furthest is the one that reaches furthest: n·(w x r) = (n x w)·r.
