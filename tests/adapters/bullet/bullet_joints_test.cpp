@@ -123,12 +123,13 @@ BOOST_AUTO_TEST_CASE(each_joint_converges_to_the_cores_with_first_order_in_every
   BOOST_TEST(checked == 6 * 4 * 3 * 3);
 }
 
-// 1e-12 m, rad: a hundred steps' roundings of poses of the order of one.
+// 1e-12 m, rad: a hundred steps' roundings of poses of the order of one. With cfm = 1 a fixed body sags so far that
+// Bullet lets it off its arms.
 BOOST_AUTO_TEST_CASE(the_twins_do_what_the_engine_does_with_each_joint_to_rounding) {
   int checked = 0;
   for (const test::JointedScene& jointed : test::jointed_scenes()) {
     if (has_distance(jointed.scene)) continue;
-    for (const std::string way : {"bullet:mlcp", "bullet:mlcp,erp=1", "bullet:mlcp,cfm=0.001",
+    for (const std::string way : {"bullet:mlcp", "bullet:mlcp,erp=1", "bullet:mlcp,cfm=0.001", "bullet:mlcp,cfm=1",
                                   "bullet:mlcp,gyroscopic=explicit", "bullet:multibody"}) {
       const std::string twin = find_engine(engines(), "bullet").twin(parse_run_name(way, engines().infos()).settings);
       const double apart =
@@ -137,7 +138,7 @@ BOOST_AUTO_TEST_CASE(the_twins_do_what_the_engine_does_with_each_joint_to_roundi
       ++checked;
     }
   }
-  BOOST_TEST(checked == 6 * 4 * 5);
+  BOOST_TEST(checked == 6 * 4 * 6);
 }
 
 // And a twin with other numbers is another scheme, seen at once.
