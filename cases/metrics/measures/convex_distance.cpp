@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -43,38 +44,48 @@ class ConvexPair {
   double size_;  // m
 };
 
+using Simplex = boost::container::static_vector<Difference, 4>;
+using Weights = boost::container::static_vector<double, 4>;
+
 // The part of a simplex nearest to the origin, and the weights of its corners.
 struct NearestPart {
-  std::vector<Difference> corners;
-  std::vector<double> weights;
+  Simplex corners;
+  Weights weights;
   Vec3 at = Vec3::Zero();
 };
 
+// Of the corners of a part with so many sides from the first corner on: its point that is nearest to the origin, which
+// may lie outside of the part.
+template <int Sides>
+Weights weights_of(const Simplex& corners) {
+  Eigen::Matrix<double, 3, Sides> sides;
+  for (int k = 0; k < Sides; ++k) sides.col(k) = corners[static_cast<std::size_t>(k) + 1].at - corners[0].at;
+  const Eigen::Matrix<double, Sides, Sides> square = sides.transpose() * sides;
+  const Eigen::Matrix<double, Sides, 1> x = square.fullPivLu().solve(-(sides.transpose() * corners[0].at));
+  Weights weights = {1};
+  for (int k = 0; k < Sides; ++k) weights.push_back(x[k]), weights[0] -= x[k];
+  return weights;
+}
+
 // Among all parts of the simplex, the one whose nearest point lies inside it and is nearest to the origin. `touching`:
 // m², the square of a distance that counts as none.
-NearestPart nearest_of(const std::vector<Difference>& simplex, double touching) {
+NearestPart nearest_of(const Simplex& simplex, double touching) {
   NearestPart best;
   double least = std::numeric_limits<double>::infinity();
   for (unsigned chosen = 1; chosen < 1u << simplex.size(); ++chosen) {
-    std::vector<Difference> corners;
+    Simplex corners;
     for (std::size_t i = 0; i < simplex.size(); ++i) {
       if (chosen >> i & 1) corners.push_back(simplex[i]);
     }
-    const auto count = static_cast<Eigen::Index>(corners.size()) - 1;
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> sides(3, count);
-    for (Eigen::Index k = 0; k < count; ++k) sides.col(k) = corners[static_cast<std::size_t>(k) + 1].at - corners[0].at;
-    std::vector<double> weights = {1};
-    if (count > 0) {
-      const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> square = sides.transpose() * sides;
-      const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> x =
-          square.fullPivLu().solve(-(sides.transpose() * corners[0].at));
-      for (Eigen::Index k = 0; k < count; ++k) weights.push_back(x[k]), weights[0] -= x[k];
-    }
+    const Weights weights = corners.size() == 1   ? Weights{1}
+                            : corners.size() == 2 ? weights_of<1>(corners)
+                            : corners.size() == 3 ? weights_of<2>(corners)
+                                                  : weights_of<3>(corners);
     if (!std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; })) continue;
     Vec3 at = Vec3::Zero();
     for (std::size_t k = 0; k < corners.size(); ++k) at += weights[k] * corners[k].at;
     // A tetrahedron that holds the origin has no distance from it. A flat one is a part too many: its triangles tell.
-    if (count == 3 && at.squaredNorm() > touching) continue;
+    if (corners.size() == 4 && at.squaredNorm() > touching) continue;
     if (at.squaredNorm() < least) least = at.squaredNorm(), best = {corners, weights, at};
   }
   return best;
@@ -98,7 +109,8 @@ struct Triangle {
 
 class Polytope {
  public:
-  Polytope(const ConvexPair& pair, const std::vector<Difference>& tetrahedron) : pair_(pair), points_(tetrahedron) {
+  Polytope(const ConvexPair& pair, const Simplex& tetrahedron)
+      : pair_(pair), points_(tetrahedron.begin(), tetrahedron.end()) {
     middle_ = (points_[0].at + points_[1].at + points_[2].at + points_[3].at) / 4;
     for (const std::array<std::size_t, 3>& corners :
          {std::array<std::size_t, 3>{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}})
@@ -182,7 +194,7 @@ class Polytope {
 };
 
 // Adds corners to a simplex until it is a tetrahedron, each as far from the others' point, line or plane as it can be.
-std::vector<Difference> completed(std::vector<Difference> simplex, const ConvexPair& pair) {
+Simplex completed(Simplex simplex, const ConvexPair& pair) {
   while (simplex.size() < 4) {
     const Vec3 &origin = simplex[0].at, side = simplex.size() > 1 ? Vec3(simplex[1].at - origin) : Vec3::Zero();
     const auto beyond = [&](const Difference& point) {
@@ -208,7 +220,7 @@ std::vector<Difference> completed(std::vector<Difference> simplex, const ConvexP
 ConvexGap convex_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const ConvexPair pair(a, pose_a, b, pose_b);
   const double touching = kDistanceConverged * pair.size() * pair.size();
-  std::vector<Difference> simplex = {pair.furthest(-pair.between())};
+  Simplex simplex = {pair.furthest(-pair.between())};
   for (int round = 0; round < kMostDistanceRounds; ++round) {
     const NearestPart nearest = nearest_of(simplex, touching);
     const double square = nearest.at.squaredNorm();
