@@ -44,6 +44,7 @@ struct Exact {
   const Pose& a;
   const Pose& b;
   Manifold& out;
+  double far;
 
   void operator()(const Sphere& sphere, const Sphere& other) const {
     add_balls(a.p, sphere.radius, b.p, other.radius, 0, out);
@@ -124,7 +125,7 @@ struct Exact {
 
   template <typename Curved, typename Hull>
   requires(kIsCurved<Curved>&& kIsPolyhedron<Hull>) void operator()(const Curved& curved, const Hull& hull) const {
-    collide_curved(CurvedSolid(curved, a), hull, b, out);
+    collide_curved(CurvedSolid(curved, a), hull, b, out, far);
   }
   template <typename Curved>
   requires(kIsCurved<Curved>) void operator()(const Capsule& capsule, const Curved& curved) const {
@@ -132,7 +133,7 @@ struct Exact {
   }
   template <typename Curved, typename Other>
   requires(kIsCurved<Curved>&& kIsCurved<Other>) void operator()(const Curved& curved, const Other& other) const {
-    collide_curved(CurvedSolid(curved, a), CurvedSolid(other, b), out);
+    collide_curved(CurvedSolid(curved, a), CurvedSolid(other, b), out, far);
   }
   template <typename Curved>
   requires(kIsCurved<Curved>) void operator()(const Curved& curved, const SurfaceShape& on) const {
@@ -163,15 +164,16 @@ struct Collide {
   const Pose& a;
   const Pose& b;
   Manifold& out;
+  double far;
 
   template <typename A, typename B>
   void operator()(const A& first, const B& second) const {
     if constexpr (std::is_same_v<A, Compound> || std::is_same_v<B, Compound>) {
       collide_parts();
     } else if constexpr (kIsExact<A, B>) {
-      Exact{a, b, out}(first, second);
+      Exact{a, b, out, far}(first, second);
     } else if constexpr (kIsExact<B, A>) {
-      Exact{b, a, out}(second, first);
+      Exact{b, a, out, far}(second, first);
       reverse(out);
     } else {
       static_assert(kStandsStill<A> && kStandsStill<B>);  // these never meet
@@ -187,7 +189,7 @@ struct Collide {
       for_each_part(of_b, [&](const Shape& shape_b, const BodyPose& pose_b) {
         const bool a_is_placed = std::holds_alternative<Compound>(of_a),
                    b_is_placed = std::holds_alternative<Compound>(of_b);
-        collide(shape_a, a_is_placed ? a * pose_a : a, shape_b, b_is_placed ? b * pose_b : b, points);
+        collide(shape_a, a_is_placed ? a * pose_a : a, shape_b, b_is_placed ? b * pose_b : b, points, far);
         for (ManifoldPoint point : points) {
           // A surface has numbers of its own: those of the regions that are touched.
           if (a_is_placed) point.part_a = part_a;
@@ -220,9 +222,9 @@ bool put_crossing(const ManifoldPoint& crossing, double reach, int first, Manifo
   return true;
 }
 
-void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out) {
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out, double far) {
   out.clear();
-  std::visit(Collide{a, b, pose_a, pose_b, out}, a, b);
+  std::visit(Collide{a, b, pose_a, pose_b, out, far}, a, b);
 }
 
 }  // namespace rigor

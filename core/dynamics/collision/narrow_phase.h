@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "core/scene/scene.h"
 
@@ -58,9 +59,10 @@ inline constexpr double kNearlyFlat = 1e-2;  // rad
 // within `reach` [m] it removes these points and returns false.
 bool put_crossing(const ManifoldPoint& crossing, double reach, int first, Manifold& out);
 
-// Every point at which the shapes touch or come closest, however far apart they are. Two planes have none, nor does a
-// shape far from a surface of triangles.
-void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out);
+// Every point at which the shapes touch or come closest. Two planes have none, nor does a shape far from a surface of
+// triangles. Shapes further apart than `far` [m] need none either, which spares time.
+void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out,
+             double far = std::numeric_limits<double>::infinity());
 
 // The harder pairs, in files of their own; normals from the second to the first.
 void collide_boxes(const Box& a, const Pose& pose_a, const Box& b, const Pose& pose_b, Manifold& out);

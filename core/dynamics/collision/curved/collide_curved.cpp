@@ -81,10 +81,11 @@ void complete(const ManifoldPoint& crossing, bool is_exact, double size, Manifol
 
 class OnHull {
  public:
-  OnHull(const CurvedSolid& solid, const PlacedHull& hull, Manifold& out)
-      : solid_(solid), hull_(hull), axis_(best_axis(solid, hull)), out_(out) {}
+  OnHull(const CurvedSolid& solid, const PlacedHull& hull, Manifold& out, double far)
+      : solid_(solid), hull_(hull), axis_(best_axis(solid, hull, far)), far_(far), out_(out) {}
 
   void find() const {
+    if (axis_.separation > far_) return;
     const ManifoldPoint crossing = single_point(axis_, upper_point(), false);
     if (!solid_.is_cylinder) return out_.add(crossing);
     const FlatFace face{hull_, facing()};
@@ -141,6 +142,7 @@ class OnHull {
   const CurvedSolid& solid_;
   const PlacedHull& hull_;
   CurvedAxis axis_;
+  double far_;
   Manifold& out_;
 };
 
@@ -178,10 +180,11 @@ void add_capsule(const Capsule& capsule, const Pose& pose, const CurvedSolid& so
 // Two cylinders, or a cylinder and an ellipsoid, or two ellipsoids. The axis points from b to a.
 class TwoCurved {
  public:
-  TwoCurved(const CurvedSolid& a, const CurvedSolid& b, Manifold& out)
-      : a_(a), b_(b), axis_(best_axis(a, b)), out_(out) {}
+  TwoCurved(const CurvedSolid& a, const CurvedSolid& b, Manifold& out, double far)
+      : a_(a), b_(b), axis_(best_axis(a, b, far)), far_(far), out_(out) {}
 
   void find() const {
+    if (axis_.separation > far_) return;
     const ManifoldPoint crossing = single_point(axis_, upper_point(), false);
     if (!a_.is_cylinder || !b_.is_cylinder) return out_.add(crossing);
     const double tilt_a = sine_between(a_.axis(), axis_.n), tilt_b = sine_between(b_.axis(), axis_.n);
@@ -213,30 +216,33 @@ class TwoCurved {
   const CurvedSolid& a_;
   const CurvedSolid& b_;
   CurvedAxis axis_;
+  double far_;
   Manifold& out_;
 };
 
 template <typename Polyhedron>
-void collide_with_hull(const CurvedSolid& a, const Polyhedron& b, const Pose& pose_b, Manifold& out) {
+void collide_with_hull(const CurvedSolid& a, const Polyhedron& b, const Pose& pose_b, Manifold& out, double far) {
   static thread_local PlacedHull hull;
   hull.place(b, pose_b);
-  OnHull(a, hull, out).find();
+  OnHull(a, hull, out, far).find();
 }
 
 }  // namespace
 
-void collide_curved(const CurvedSolid& a, const Box& b, const Pose& pose_b, Manifold& out) {
-  collide_with_hull(a, b, pose_b, out);
+void collide_curved(const CurvedSolid& a, const Box& b, const Pose& pose_b, Manifold& out, double far) {
+  collide_with_hull(a, b, pose_b, out, far);
 }
 
-void collide_curved(const CurvedSolid& a, const Convex& b, const Pose& pose_b, Manifold& out) {
-  collide_with_hull(a, b, pose_b, out);
+void collide_curved(const CurvedSolid& a, const Convex& b, const Pose& pose_b, Manifold& out, double far) {
+  collide_with_hull(a, b, pose_b, out, far);
 }
 
 void collide_curved(const Capsule& a, const Pose& pose_a, const CurvedSolid& b, Manifold& out) {
   add_capsule(a, pose_a, b, out);
 }
 
-void collide_curved(const CurvedSolid& a, const CurvedSolid& b, Manifold& out) { TwoCurved(a, b, out).find(); }
+void collide_curved(const CurvedSolid& a, const CurvedSolid& b, Manifold& out, double far) {
+  TwoCurved(a, b, out, far).find();
+}
 
 }  // namespace rigor

@@ -6,6 +6,7 @@
 
 #include "core/dynamics/collision/curved/curved_ways.h"
 #include "core/dynamics/collision/curved/smooth_ascent.h"
+#include "core/dynamics/collision/side_by_side.h"
 
 namespace rigor {
 namespace {
@@ -33,6 +34,26 @@ CurvedSolid smooth_part(const CurvedSolid& solid, const Vec3& n) {
   return part;
 }
 
+// What touches first along a direction: a point, the straight side of a cylinder, or its flat end.
+struct TouchingPart {
+  RoundLine line;  // without length for a point and an end; without radius but for an end
+
+  TouchingPart(const CurvedSolid& solid, const Vec3& n) : line{solid.centre + solid.support(n), n, 0, 0} {
+    if (!solid.is_cylinder) return;
+    if (std::abs(n.dot(solid.axis())) < kUpright)
+      line = {solid.centre + solid.radius() * solid.across(n).normalized(), solid.axis(), solid.half(), 0};
+    else if (!(solid.across(n).norm() > kUpright))
+      line.radius = solid.radius();
+  }
+};
+
+// m: how deep a point lies in a cylinder; negative outside of it. Of ellipsoids it is not asked.
+double depth_in(const CurvedSolid& solid, const Vec3& p) {
+  if (!solid.is_cylinder) return -1;
+  const Vec3 from = p - solid.centre;
+  return std::min(solid.radius() - solid.across(from).norm(), solid.half() - std::abs(from.dot(solid.axis())));
+}
+
 // Tries directions from a polyhedron to the solid.
 class FromHull {
  public:
@@ -40,9 +61,10 @@ class FromHull {
     size_ = solid.size() + (hull.points.front() - hull.centre).norm();
   }
 
-  CurvedAxis find() {
+  CurvedAxis find(double far) {
     try_faces();
     if (solid_.is_cylinder) try_ends();
+    if (best_.separation > far) return best_;
     for (std::size_t e = 0; e < hull_.hull->edges.size(); ++e) {
       if (may_touch_edge(hull_.hull->edges[e])) try_edge(static_cast<int>(e));
     }
@@ -128,20 +150,11 @@ class FromCurved {
   FromCurved(const CurvedSolid& solid, const CurvedSolid& other)
       : solid_(solid), other_(other), line_(solid.centre - other.centre), size_(solid.size() + other.size()) {}
 
-  CurvedAxis find() {
-    // Flat ends, and straight sides.
-    for (const CurvedSolid* flat : {&other_, &solid_}) {
-      if (flat->is_cylinder) offer(flat->axis()), offer(-flat->axis());
+  CurvedAxis find(double far) {
+    for (const auto tries : {&FromCurved::try_ends, &FromCurved::try_sides, &FromCurved::try_smooth_parts}) {
+      (this->*tries)();
+      if (best_.separation > far || is_surely_best()) return best_;
     }
-    if (other_.is_cylinder) {
-      for (const Vec3& n : ways_from_line(solid_, other_.centre, other_.axis())) offer(n), offer(-n);
-    }
-    if (solid_.is_cylinder) {
-      for (const Vec3& n : ways_from_line(other_, solid_.centre, solid_.axis())) offer(n), offer(-n);
-    }
-    // Smooth parts. Of solids that are apart, no direction but the best one is a local maximum.
-    if (line_.norm() > kUpright * size_) climb_from(line_.normalized());
-    if (best_.separation > 0 && is_level()) return best_;
     find_starts();
     for (const CurvedAxis& start : starts_) {
       if (std::isfinite(start.separation)) climb_from(start.n);
@@ -150,6 +163,25 @@ class FromCurved {
   }
 
  private:
+  void try_ends() {
+    for (const CurvedSolid* flat : {&other_, &solid_}) {
+      if (flat->is_cylinder) offer(flat->axis()), offer(-flat->axis());
+    }
+  }
+
+  void try_sides() {
+    if (other_.is_cylinder) {
+      for (const Vec3& n : ways_from_line(solid_, other_.centre, other_.axis())) offer(n), offer(-n);
+    }
+    if (solid_.is_cylinder) {
+      for (const Vec3& n : ways_from_line(other_, solid_.centre, solid_.axis())) offer(n), offer(-n);
+    }
+  }
+
+  void try_smooth_parts() {
+    if (line_.norm() > kUpright * size_) climb_from(line_.normalized());
+  }
+
   double separation(const Vec3& n) const { return n.dot(line_) - solid_.reach(n) - other_.reach(n); }
 
   void offer(const Vec3& n) {
@@ -173,11 +205,24 @@ class FromCurved {
     offer(uphill(both, start, size_));
   }
 
-  // At a kink the slope does not tell.
-  bool is_level() const {
+  // Solids that are apart are nearest where the parts that touch first face each other: the separation is concave.
+  // Solids that overlap cannot be parted sooner than a point of the one leaves the other, whichever way it goes.
+  bool is_surely_best() const {
     constexpr double kLevel = 1e-9;  // of the size
-    const Vec3 slope = FromSolid{solid_, other_}(best_.n).gradient - best_.separation * best_.n;
-    return slope.norm() < kLevel * size_;
+    const Vec3& n = best_.n;
+    const TouchingPart upper(solid_, -n), lower(other_, n);
+    RoundLine one = upper.line, two = lower.line;
+    one.centre -= n.dot(one.centre) * n, two.centre -= n.dot(two.centre) * n;
+    const auto [s, t] = nearest_on_lines(one, two);
+    const Vec3 aside = two.at(t) - one.at(s);
+    const double apart = aside.norm();
+    if (best_.separation > 0) return apart - one.radius - two.radius < kLevel * size_;
+    const auto reached = [&](const RoundLine& line, double at, double side) -> Vec3 {
+      return line.at(at) + (apart > 0 ? side * std::min(1.0, line.radius / apart) : 0) * aside;
+    };
+    const double depth =
+        std::max(depth_in(other_, reached(upper.line, s, 1)), depth_in(solid_, reached(lower.line, t, -1)));
+    return depth > -best_.separation - kRoundingOf * size_;
   }
 
   // Smooth parts meet within the four lunes between the planes across both solids' flat axes. Of each lune, the best
@@ -217,7 +262,9 @@ class FromCurved {
 
 }  // namespace
 
-CurvedAxis best_axis(const CurvedSolid& solid, const PlacedHull& hull) { return FromHull(solid, hull).find(); }
+CurvedAxis best_axis(const CurvedSolid& solid, const PlacedHull& hull, double far) {
+  return FromHull(solid, hull).find(far);
+}
 
 CurvedAxis best_axis(const CurvedSolid& solid, const Line& line) {
   CurvedAxis best;
@@ -237,6 +284,8 @@ CurvedAxis best_axis(const CurvedSolid& solid, const Line& line) {
   return best;
 }
 
-CurvedAxis best_axis(const CurvedSolid& solid, const CurvedSolid& other) { return FromCurved(solid, other).find(); }
+CurvedAxis best_axis(const CurvedSolid& solid, const CurvedSolid& other, double far) {
+  return FromCurved(solid, other).find(far);
+}
 
 }  // namespace rigor

@@ -18,9 +18,9 @@ struct CurvedAxis {
 };
 
 // Exact for shapes that are apart, and for shallow overlaps. A deep overlap may be found along a longer way than the
-// shortest one.
-CurvedAxis best_axis(const CurvedSolid& solid, const PlacedHull& hull);
+// shortest one. Of shapes further apart than `far` [m] it may be any axis along which they are.
+CurvedAxis best_axis(const CurvedSolid& solid, const PlacedHull& hull, double far);
 CurvedAxis best_axis(const CurvedSolid& solid, const Line& line);
-CurvedAxis best_axis(const CurvedSolid& solid, const CurvedSolid& other);
+CurvedAxis best_axis(const CurvedSolid& solid, const CurvedSolid& other, double far);
 
 }  // namespace rigor

@@ -155,9 +155,9 @@ void Manifolds::add_pair(BodyColumns state, double dt, const Collider& a, const 
   FreeMotion motion_b = free_motion_of(state, b, poses_[&b - colliders_.data()]);
   const Vec3 v = motion_a.v - motion_b.v;
   motion_a.pose.p += aside_of(a, motion_a.pose.p, b, motion_b.pose.p);
-  collide(a.shape, motion_a.pose, b.shape, motion_b.pose, manifold);
   // A fast body touches at another place, and along another normal, than those of its present nearest point.
   const bool turns_far = turning > kTurnsFar * smaller_inradius(a, b);
+  collide(a.shape, motion_a.pose, b.shape, motion_b.pose, manifold, margin + turning + dt * v.norm());
   const double speed = rotational_speed(a, state) + rotational_speed(b, state);
   const double ahead = turns_far ? time_of_turning_impact(a, b, motion_a, motion_b, speed, margin, dt)
                                  : time_of_impact(manifold, motion_a, motion_b, dt);

@@ -16,8 +16,6 @@ BOOST_AUTO_TEST_SUITE(core_dynamics_collision_curved_pairs)
 
 namespace {
 
-;
-
 std::vector<Shape> curved_shapes() {
   return {Cylinder{0.3, 0.7}, Cylinder{0.5, 0.06}, Cylinder{0.06, 1.2}, Ellipsoid{{0.2, 0.35, 0.5}},
           Ellipsoid{{0.03, 0.4, 0.5}}};
@@ -92,6 +90,27 @@ BOOST_AUTO_TEST_CASE(gaps_and_normals_are_those_of_a_search_over_directions) {
           // rounding.
           BOOST_TEST(found.gap > expected - 1e-8);
           BOOST_TEST(std::abs(apart_along(found.normal, a, at_a, b, at_b) - found.gap) < 2e-5);
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(only_shapes_further_apart_than_asked_for_lose_points) {
+  test::RandomPoses random(12);
+  Manifold all, near, far;
+  for (const Shape& a : curved_shapes()) {
+    for (const Shape& b : all_shapes()) {
+      for (int k = 0; k < 12; ++k) {
+        const Pose at_a{random.vector(0.8), random.turn()}, at_b{random.vector(0.2), random.turn()};
+        collide(a, at_a, b, at_b, all);
+        const double gap = least_of(all).gap;
+        // Points of a flat end leave out what is 1e-5 of its width deeper.
+        collide(a, at_a, b, at_b, near, gap + 1e-12), collide(a, at_a, b, at_b, far, gap - 2e-5);
+        BOOST_TEST_CONTEXT(shape_name(a) << "-" << shape_name(b) << " " << gap) {
+          BOOST_TEST_REQUIRE(near.size() == all.size());
+          for (int i = 0; i < all.size(); ++i) BOOST_TEST((near[i].point == all[i].point && near[i].gap == all[i].gap));
+          if (gap > 2e-5) BOOST_TEST((far.size() == 0 || std::holds_alternative<Capsule>(b)));
         }
       }
     }
