@@ -315,4 +315,51 @@ BOOST_AUTO_TEST_CASE(a_gate_that_held_over_a_time_of_reduced_order_says_so) {
   BOOST_TEST(all_gates_hold(fixture.grid));
 }
 
+// A long run is compared until it tells nothing more. What came later does not qualify the answer.
+BOOST_AUTO_TEST_CASE(each_cell_of_an_order_that_was_not_stepped_by_its_own_method_is_named) {
+  GatedGrid run;
+  Gate order = gate("position_error");
+  test::limit_as<OrderLimit>(order).at_least = 1.9, order.engines = {"a"};
+  for (std::size_t n = 0; n < 2; ++n) {
+    run.cell(n).metrics["position_error"].compared_until = 0.5;
+    run.cell(n).reduced_order = ReducedOrder{0.2, "by short steps"};
+  }
+  const auto answers = run.check(order);
+  BOOST_TEST_REQUIRE(answers.size() == 1u);
+  BOOST_TEST(answers.front().caveat ==
+             "at dt = 1/10 from 0.2 s on stepped by short steps; at dt = 1/20 from 0.2 s on stepped by short steps");
+}
+
+BOOST_AUTO_TEST_CASE(a_spread_of_a_pair_or_a_step_that_is_not_selected_is_not_judged) {
+  GatedGrid run;
+  run.result().spreads = {{0, 1, {0.1, "1/10"}, {0.5, 0.3, 0}, {0.01, 0.2, 0}, 0.1, 0.5}};
+  Gate limit = gate("spread");
+  test::limit_as<BoundLimit>(limit).max = 1;
+  for (const char* one : {"a", "b"}) {
+    limit.engines = {one};
+    BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked), one);
+  }
+  limit.engines = {}, limit.dt = {{0.05, "1/20"}};
+  BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked));
+  // Of a run with itself at its finest step it is another question.
+  run.result().spreads[0].second = 0, limit.dt = {};
+  BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked));
+}
+
+// A share has no unit: eight roundings in each of ten steps are 4.8e-6 of it at most.
+BOOST_AUTO_TEST_CASE(a_metric_without_unit_is_allowed_roundings_too) {
+  Gate limit = gate("energy_drift");
+  test::limit_as<BoundLimit>(limit).max = 0, limit.engines = {"b"};
+  const auto held = [&](double drift) {
+    GatedGrid run;
+    run.grid.engines[1].precision = "single";
+    for (std::size_t n = 2; n < 4; ++n)
+      run.cell(n).metrics["energy_drift"] = run.cell(n).metrics["position_error"],
+      run.cell(n).metrics["energy_drift"].value = drift;
+    return count(run.check(limit), GateAnswer::held);
+  };
+  BOOST_TEST(held(1e-7) == 2);
+  BOOST_TEST(held(1e-4) == 0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -183,4 +183,18 @@ BOOST_AUTO_TEST_CASE(a_ranking_does_not_hold_where_both_are_the_same) {
   BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 2);
 }
 
+// Of a metric of which more is better, the larger value is ahead.
+BOOST_AUTO_TEST_CASE(a_ranking_knows_of_which_metrics_more_is_better) {
+  GatedGrid run;
+  for (std::size_t n = 0; n < 4; ++n) {
+    run.cell(n).metrics["survival"] = run.cell(n).metrics["position_error"];
+    run.cell(n).metrics["survival"].value = n < 2 ? 0.5 : 0.25;  // a, b
+  }
+  Gate ranking = gate("survival");
+  ranking.engines = {"a"}, test::limit_as<RankingLimit>(ranking).better_than = "b";
+  BOOST_TEST(count(run.check(ranking), GateAnswer::held) == 2);
+  ranking.engines = {"b"}, test::limit_as<RankingLimit>(ranking).better_than = "a";
+  BOOST_TEST(count(run.check(ranking), GateAnswer::failed) == 2);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

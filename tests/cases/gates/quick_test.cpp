@@ -62,4 +62,12 @@ BOOST_AUTO_TEST_CASE(what_is_quick_counts_bodies_by_steps) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(an_observed_order_needs_all_of_its_steps_too) {
+  Case definition = long_case();
+  definition.gates = {gate("observed_order"), gate("position_error")};
+  const auto selected = quick_selection({definition}, {});
+  BOOST_TEST_REQUIRE(selected[0].gates.size() == 1u);
+  BOOST_TEST(selected[0].gates[0].metric == "position_error");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -187,4 +187,24 @@ BOOST_AUTO_TEST_CASE(a_run_and_a_step_are_the_same_however_they_are_written) {
   BOOST_TEST(!values.find("family/case", grid.runs[1], 0.1, "creep").has_value());
 }
 
+BOOST_AUTO_TEST_CASE(a_file_that_is_no_results_is_refused) {
+  for (const char* text : {"{}", "[]", "{\"engines\": 1, \"cases\": []}", "no JSON"}) {
+    const std::string file = write("other.json", text);
+    BOOST_CHECK_EXCEPTION(regression_text(file, "good"), InputError, [&](const InputError& error) {
+      return std::string(error.what()).find(file) != std::string::npos;
+    });
+  }
+}
+
+// An answer by a run that the file does not list belongs to no engine.
+BOOST_AUTO_TEST_CASE(an_answer_of_an_unlisted_run_is_recorded_for_no_engine) {
+  Gate gate;
+  gate.metric = "position_error", test::limit_as<RegressionLimit>(gate).factor = 1.25;
+  result().definition.gates = {gate};
+  check_gates(result(), grid);
+  for (GateResult& answer : result().gates) answer.engine = "nobody";
+  const std::string file = write("results.json", json_report(grid));
+  for (const char* engine : {"good", "nobody"}) BOOST_CHECK_THROW(regression_text(file, engine), InputError);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

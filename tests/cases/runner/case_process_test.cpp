@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(a_journal_keeps_the_truth_and_each_answer_but_no_time_out) 
   BOOST_TEST(again.truth->largest_kinetic_energy == first.truth->largest_kinetic_energy);
   // One that was out of time has another try, and what was done beside it has not.
   std::filesystem::remove(file);
-  options.limit = 0.1;
+  options.limit = 1;
   const CaseResult late = run(definition, table_of([](double, double dt, double&) {
                                 if (dt == 0.05) spin();
                               }),
