@@ -2,6 +2,7 @@
 #include "cases/metrics/measures/joints/joint_geometry.h"
 
 #include <boost/test/unit_test.hpp>
+#include <numbers>
 
 #include "tests/scenes.h"
 
@@ -34,7 +35,10 @@ const Row kJoints[] = {{"ball", BallJoint{{0.5, 0.1, 0.4}}},
                        {"fixed", FixedJoint{}},
                        {"distance", DistanceJoint{{0.1, 0.2, 0.3}, {-0.2, 0.1, 0.1}}},
                        {"universal", UniversalJoint{{0.5, 0.1, 0.4}, kAxis, kAxis2}},
-                       {"cylindrical", CylindricalJoint{{0.5, 0.1, 0.4}, kAxis}}};
+                       {"cylindrical", CylindricalJoint{{0.5, 0.1, 0.4}, kAxis}},
+                       {"planar", PlanarJoint{{0.5, 0.1, 0.4}, kAxis}},
+                       {"screw", ScrewJoint{{0.5, 0.1, 0.4}, kAxis, 0.5}},
+                       {"compound", CompoundJoint{{{true, {0.5, 0.1, 0.4}, kAxis}, {false, {}, kAxis2}}}}};
 
 BodyTable at_start(const Scene& scene) {
   BodyTable bodies(scene.bodies.size());
@@ -121,6 +125,7 @@ BOOST_AUTO_TEST_CASE(each_joint_lets_free_what_it_lets_free_and_holds_the_rest) 
   const Vec3 anchor(0.5, 0.1, 0.4), at_b = Vec3(0.9, 0.4, 0.2) - anchor;
   const auto about = [&](const Vec3& turn) { return Vec3(rotation_by(turn) * at_b - at_b); };  // about the anchor
   const Vec3 askew(0.2, -0.1, 0.3), across = kAxis.unitOrthogonal();
+  const double kLead = 0.5 / (2 * std::numbers::pi);  // m/rad
   const Move moves[] = {{0, about(askew), askew, 0, 0},
                         {0, about(askew) + 0.003 * kAxis, askew, 0.003, 0},
                         {1, about(0.7 * kAxis), 0.7 * kAxis, 0, 0},
@@ -133,7 +138,19 @@ BOOST_AUTO_TEST_CASE(each_joint_lets_free_what_it_lets_free_and_holds_the_rest) 
                         {5, about(0.01 * kAxis.cross(kAxis2)), 0.01 * kAxis.cross(kAxis2), 0, 0.01},
                         {6, about(0.7 * kAxis) + 0.4 * kAxis, 0.7 * kAxis, 0, 0},
                         {6, 0.4 * kAxis + 0.003 * across, Vec3::Zero(), 0.003, 0},
-                        {6, about(0.01 * across), 0.01 * across, 0, 0.01}};
+                        {6, about(0.01 * across), 0.01 * across, 0, 0.01},
+                        {7, about(0.7 * kAxis) + 0.4 * across, 0.7 * kAxis, 0, 0},
+                        {7, 0.4 * across + 0.003 * kAxis, Vec3::Zero(), 0.003, 0},
+                        {7, about(0.01 * across), 0.01 * across, 0, 0.01},
+                        {8, about(0.7 * kAxis) + 0.7 * kLead * kAxis, 0.7 * kAxis, 0, 0},
+                        {8, about(0.7 * kAxis), 0.7 * kAxis, 0.7 * kLead, 0},
+                        {8, about(-0.7 * kAxis) + 0.7 * kLead * kAxis, -0.7 * kAxis, 1.4 * kLead, 0},
+                        {8, 0.5 * kAxis, Vec3::Zero(), 0, 0},  // a whole turn
+                        {8, 0.003 * across, Vec3::Zero(), 0.003, 0},
+                        {8, about(0.01 * across), 0.01 * across, 0, 0.01},
+                        {9, about(0.7 * kAxis) + rotation_by(0.7 * kAxis) * (0.3 * kAxis2), 0.7 * kAxis, 0, 0},
+                        {9, 0.3 * kAxis2 + 0.003 * kAxis, Vec3::Zero(), 0.003, 0},
+                        {9, 0.3 * kAxis2 + 0.003 * kAxis.cross(kAxis2), Vec3::Zero(), 0.003, 0}};
   for (const Move& move : moves) {
     const Scene scene = pair_with(kJoints[move.joint].type);
     const JointGeometry joint(scene, scene.joints[0]);
