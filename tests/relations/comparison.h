@@ -10,7 +10,7 @@
 
 namespace rigor::test {
 
-// Of one relation over many scenes.
+// The result of one relation over many scenes.
 struct Tally {
   int scenes = 0, broken = 0;
   double largest = 0;  // m and rad apart
@@ -20,7 +20,8 @@ struct Tally {
 
 struct Tallies {
   int scenes = 0, supported = 0;
-  // Scenes, each by the share of its time before the motion is chaotic, the run gives up, or a truth claims 1e-6 m.
+  // The sum over scenes of the share of time that is compared. It ends where the motion becomes chaotic, where the run
+  // gives up, or where a truth claims more than 1e-6 m.
   double followed = 0;
   std::map<std::string, Tally> of;  // relation
 };
@@ -28,7 +29,7 @@ struct Tallies {
 // Scenes with the seeds first, first + 1, ... of a generator.
 Tallies compare(const MotionSource& run, const std::string& scenes, unsigned first, int count);
 
-// A relation that is known not to hold for a run: in so many of the scenes that the tests take without a wish.
+// A relation that a run is known to break, and in how many of the scenes that the tests take by default.
 struct Fact {
   std::string run, scenes, relation;
   int least, most;
@@ -36,7 +37,8 @@ struct Fact {
 };
 
 // Fails for each relation that a scene breaks, and for each fact that is no longer one. RIGOR_RELATIONS=100000 takes so
-// many scenes in all, shared out among the rows of the tests, and RIGOR_RELATIONS_FROM other seeds.
+// many scenes in all, shared out among the rows of the tests. RIGOR_RELATIONS_FROM sets the first seed. Facts are about
+// the default scenes and are not counted with these variables.
 void check(const MotionSource& run, const std::string& scenes, int count, const std::vector<Fact>& facts = {});
 
 }  // namespace rigor::test

@@ -1,5 +1,5 @@
-// Engines under exact relations between scenes (relations.h). An engine that breaks one has a row in the table of
-// facts, which must hold: a relation that holds again fails the test, too.
+// Engines under exact relations between scenes (relations.h). An engine that breaks a relation has a row in the table
+// of facts. The test also fails if the relation holds again.
 #include <boost/test/unit_test.hpp>
 
 #include "adapters/engines.h"
@@ -21,8 +21,8 @@ constexpr const char* kSkewed =
     "the directions of friction on a slope are not at right angles (adapters/siconos/README.md)";
 constexpr const char* kSolver = "the solver iterates over all bodies together, up to a tolerance";
 
-// Of 30 scenes, or of eight for slow engines; counts may differ by a few where libraries round differently. Bounds:
-// 1e-8 m and rad.
+// The counts are those of 30 scenes, or of eight for slow engines. They may differ by a few where libraries round
+// differently. The bound is 1e-8 m and rad.
 const std::vector<test::Fact> kFacts = {
     {"bullet", "mechanisms", "restarted", 20, 27, kGaps},    {"bullet", "mechanisms", "shuffled", 12, 25, kOrder},
     {"bullet", "mechanisms", "turned", 14, 26, kAxes},       {"bullet", "mechanisms", "welded halves", 1, 3, kOrder},

@@ -28,7 +28,7 @@ void set_moving(Scene& scene, const Vec3& velocity, const Vec3& turn_rate, const
   }
 }
 
-// No frequency is much above 15 rad/s, so that fixed steps resolve it: the arms are of the size of the bodies.
+// Arms are of the size of the bodies. So no frequency is much above 15 rad/s, and fixed steps resolve all.
 Spring any_spring(Random& random, const Scene& scene, int a, int b, bool has_dampers) {
   const auto mass = [&](int i) { return i == kWorld ? 1e9 : scene.bodies[static_cast<std::size_t>(i)].mass; };
   const double rate = random.between(2, 10), stiffness = std::min(mass(a), mass(b)) * rate * rate;
@@ -139,7 +139,7 @@ class Mechanism {
     return servo;
   }
 
-  // Of two joints with a coordinate that share no load of given speed.
+  // Two joints with a coordinate, of which no motor gives the speed.
   void add_coupling() {
     if (is_plain_ || !random_.chance(0.3)) return;
     std::vector<int> with_axis;

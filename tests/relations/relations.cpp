@@ -117,8 +117,8 @@ Made with_far_body(const Original& original, Random& random) {
   return made;
 }
 
-// From a half's centre to the whole body's, in B: along the longest extent, and short enough that the halves are bodies
-// of matter. A half has the covariance C/2 - m/2 s sT of the whole body's C, and 0.3 of the largest leaves it positive.
+// From a half's centre to the whole body's, in B, along the longest extent. A half has the covariance C/2 - m/2 s sT of
+// the whole body's C. With 0.3 of the largest it stays positive, so that the halves are bodies of matter.
 Vec3 half_offset(const Body& body) {
   const Mat3 covariance = 0.5 * body.inertia.trace() * Mat3::Identity() - body.inertia;
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(covariance);

@@ -30,7 +30,7 @@ struct MotionSource {
   // Whether a scene may be left out. An engine need not support every scene.
   std::function<bool(const Scene& scene)> supports = {};
   std::function<Motion(const Scene& scene, double step, int steps)> motion = {};
-  // Whether two ways of a step, of the same order, are chosen by a threshold: then only the motion is kept.
+  // Whether a threshold chooses between two ways of a step, of the same order. Then only the motion is kept.
   bool has_two_ways = false;
   bool is_symmetric = false;  // in time
   bool is_one_step = true;    // the state tells the next step
