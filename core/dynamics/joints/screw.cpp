@@ -15,7 +15,8 @@ class Screw : public JointConstraint {
         pitch_(joint.pitch),
         axis_a_(ends.direction_in_a(joint.axis)),
         across_a_(ends.direction_in_a(joint.axis.unitOrthogonal())),
-        across_b_(ends.direction_in_b(joint.axis.unitOrthogonal())),
+        first_b_(ends.direction_in_b(joint.axis.unitOrthogonal())),
+        second_b_(ends.direction_in_b(joint.axis.cross(joint.axis.unitOrthogonal()))),
         arm_b_(ends.in_b(joint.anchor)),
         start_(joint.axis.dot(joint.anchor - ends.a.position)) {}
 
@@ -41,17 +42,20 @@ class Screw : public JointConstraint {
 
  private:
   double thread_gap(const EndMotion& a, const EndMotion& b, double way) const {
-    const Vec3 axis = a.R * axis_a_, from = a.R * across_a_, to = b.R * across_b_;
-    const double turns = portable::atan2(axis.dot(from.cross(to)), from.dot(to)) / (2 * std::numbers::pi);
+    const Vec3 axis = a.R * axis_a_, first = a.R * across_a_, second = axis.cross(first);
+    const Vec3 to_first = b.R * first_b_, to_second = b.R * second_b_;
+    const double turns =
+        portable::atan2(second.dot(to_first) - first.dot(to_second), first.dot(to_first) + second.dot(to_second)) /
+        (2 * std::numbers::pi);
     const double off = way / pitch_ - turns;
     return pitch_ * (off - std::round(off));
   }
 
-  std::unique_ptr<JointConstraint> runs_;  // as a cylindrical joint
-  double pitch_;                           // m per turn
-  Vec3 axis_a_, across_a_, across_b_;      // unit
-  Vec3 arm_b_;                             // m, in b's frame
-  double start_;                           // m: of the point along the axis, from a's centre
+  std::unique_ptr<JointConstraint> runs_;        // as a cylindrical joint
+  double pitch_;                                 // m per turn
+  Vec3 axis_a_, across_a_, first_b_, second_b_;  // unit; two directions across, as in JointCoordinate
+  Vec3 arm_b_;                                   // m, in b's frame
+  double start_;                                 // m: of the point along the axis, from a's centre
 };
 
 }  // namespace

@@ -42,7 +42,9 @@ class JointCoordinate {
   std::optional<AxisSeries> series_;  // of an axis of a compound joint,
   std::size_t index_ = 0;             // and which of them it is
   Vec3 axis_a_;                       // unit, in a's frame
-  Vec3 reference_a_, reference_b_;    // across the axis, the same direction at t = 0; of a hinge
+  // Two directions across a hinge's axis, in a's frame and in b's; the same at t = 0. The angle is the mean over both.
+  // So the choice of the two does not matter, even where the stages of an integrator leave the axes slightly apart.
+  Vec3 across_a_, first_b_, second_b_;
   double start_ = 0;                  // m: where b's centre is along the axis at t = 0; of a slider
 };
 

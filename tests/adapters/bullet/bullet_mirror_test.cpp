@@ -6,8 +6,8 @@
 
 #include "cases/case/suite.h"
 #include "cases/runner/simulate.h"
+#include "cases/truth/solved/events/equivalent_scene.h"
 #include "tests/cases/vocabulary.h"
-#include "tests/core/dynamics/contact/impulse/equivalent_scenes.h"
 
 using namespace rigor;
 
@@ -22,7 +22,9 @@ double asymmetry(const std::string& id, const std::string& name, double dt, doub
   const auto moved = [&](const Scene& one) {
     return simulate(find_engine(engines(), run.engine), run.settings, one, dt, duration).trajectory;
   };
-  const Trajectory as_is = moved(scene), image = moved(test::mirrored(scene));
+  Equivalence mirrored;
+  mirrored.is_mirrored = true;
+  const Trajectory as_is = moved(scene), image = moved(equivalent(scene, mirrored));
   double most = 0;
   for (std::size_t n = 0; n < as_is.samples.size(); ++n) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

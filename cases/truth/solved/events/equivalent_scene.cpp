@@ -116,43 +116,72 @@ bool slides(const Joint& joint) { return free_axis(joint) && !rigor::turns(joint
 // The unit of a joint's coordinate: 1 of an angle.
 double unit_of(const Joint& joint, double L) { return slides(joint) ? L : 1; }
 
-void scale_joints(Scene& scene, double L, double T) {
+struct Units {
+  double L, T, M;
+  double force() const { return M * L / (T * T); }
+  double effort(const Joint& joint) const { return slides(joint) ? force() : force() * L; }
+};
+
+void scale(TimeTable& table, double value, double T) {
+  for (double& time : table.times) time *= T;
+  for (double& each : table.values) each *= value;
+}
+
+void scale_motor(Motor& motor, const Scene& scene, const Units& units) {
+  const Joint& joint = scene.joints[motor.joint];
+  const double T = units.T, x = unit_of(joint, units.L), effort = units.effort(joint);
+  motor.effort *= effort, motor.most *= effort;
+  if (motor.efforts) scale(*motor.efforts, effort, T);
+  if (motor.speed) *motor.speed *= x / T;
+  motor.from *= T, motor.until *= T;
+  if (motor.servo) {
+    scale(motor.servo->target, x, T);
+    motor.servo->kp *= effort / x, motor.servo->kd *= effort / x * T;
+    motor.servo->target_speed *= x / T, motor.servo->most *= effort, motor.servo->period *= T;
+  }
+  for (JointTerm& term : motor.plus) term.ratio *= x / unit_of(scene.joints[term.joint], units.L);
+}
+
+void scale_joints(Scene& scene, const Units& units) {
   for (Joint& joint : scene.joints) {
-    std::visit(ScaleJoint{L}, joint.type);
-    const double x = unit_of(joint, L), moment = slides(joint) ? 1 : L * L;
-    joint.armature *= moment;
-    joint.stiffness *= moment / (T * T), joint.damping *= moment / T;
-    joint.quadratic_stiffness *= moment / (T * T * x);
+    std::visit(ScaleJoint{units.L}, joint.type);
+    const double x = unit_of(joint, units.L), stiffness = units.effort(joint) / x, T = units.T;
+    joint.armature *= stiffness * T * T;
+    joint.stiffness *= stiffness, joint.damping *= stiffness * T;
+    joint.quadratic_stiffness *= stiffness / x;
     joint.rest *= x, joint.lower *= x, joint.upper *= x;
   }
   for (Coupling& coupling : scene.couplings) {
-    for (JointTerm& term : coupling.to)
-      term.ratio *= unit_of(scene.joints[coupling.joint], L) / unit_of(scene.joints[term.joint], L);
+    const double x = unit_of(scene.joints[coupling.joint], units.L);
+    for (JointTerm& term : coupling.to) term.ratio *= x / unit_of(scene.joints[term.joint], units.L);
+    coupling.offset *= x;
   }
-  for (Motor& motor : scene.motors) {
-    const Joint& joint = scene.joints[motor.joint];
-    const double x = unit_of(joint, L), effort = slides(joint) ? L : L * L;
-    motor.effort *= effort / (T * T), motor.most *= effort / (T * T);
-    if (motor.speed) *motor.speed *= x / T;
-    motor.from *= T, motor.until *= T;
-  }
+  for (Motor& motor : scene.motors) scale_motor(motor, scene, units);
 }
 
-// The unit of mass stays.
-void scale(Scene& scene, double L, double T) {
+void scale(ContactLaw& law, const Units& units) {
+  law.rolling_friction *= units.L, law.torsional_friction *= units.L;
+  law.stiffness *= units.force() / units.L, law.damping *= units.force() / units.L * units.T;
+  law.dissipation *= units.T / units.L;
+}
+
+void scale(Scene& scene, const Units& units) {
+  const double L = units.L, T = units.T, M = units.M, stiffness = M / (T * T);
   scene.gravity *= L / (T * T);
   for (Body& body : scene.bodies) {
-    body.inertia *= L * L;
+    body.mass *= M, body.inertia *= M * L * L;
     body.position *= L, body.velocity *= L / T, body.angular_velocity /= T;
     if (body.shape) body.shape = scaled_shape(*body.shape, L);
   }
   for (Spring& spring : scene.springs) {
     spring.point_a *= L, spring.point_b *= L, spring.rest_length *= L;
-    spring.stiffness /= T * T, spring.damping /= T, spring.quadratic_stiffness /= T * T * L;
+    spring.stiffness *= stiffness, spring.damping *= stiffness * T, spring.quadratic_stiffness *= stiffness / L;
   }
-  scale_joints(scene, L, T);
+  scale_joints(scene, units);
+  scale(scene.contact_default, units);
+  for (ContactPair& pair : scene.contact_pairs) scale(pair.law, units);
   for (TimedForce& force : scene.forces) {
-    force.force *= L / (T * T), force.torque *= L * L / (T * T), force.point *= L;
+    force.force *= units.force(), force.torque *= units.force() * L, force.point *= L;
     force.from *= T, force.until *= T;
   }
 }
@@ -165,7 +194,7 @@ Scene equivalent(Scene scene, const Equivalence& how) {
   if (how.is_mirrored) mirror(scene);
   if (turns(how)) scene = turned(std::move(scene), how.turn);
   if (how.is_reversed) reverse(scene);
-  scale(scene, how.length, how.time);
+  scale(scene, {how.length, how.time, how.mass});
   return scene;
 }
 

@@ -11,8 +11,8 @@ namespace rigor {
 struct Equivalence {
   bool is_mirrored = false;  // x becomes -x; not with surfaces of triangles
   Quat turn = Quat::Identity();
-  bool is_reversed = false;     // the order of the bodies
-  double length = 1, time = 1;  // new units: each length and each time is multiplied by these
+  bool is_reversed = false;               // the order of the bodies
+  double length = 1, time = 1, mass = 1;  // new units: each length, time and mass is multiplied by these
 };
 
 Scene equivalent(Scene scene, const Equivalence& how);

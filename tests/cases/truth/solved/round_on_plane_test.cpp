@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/dynamics/model/energy.h"
 #include "tests/cases/judged.h"
+#include "tests/core/dynamics/joints/jointed_run.h"
 
 using namespace rigor;
 

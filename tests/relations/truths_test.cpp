@@ -1,0 +1,20 @@
+// Solved truths under exact relations between scenes (relations.h). Two related truths may be apart by what both claim.
+#include <boost/test/unit_test.hpp>
+
+#include "tests/relations/comparison.h"
+
+using namespace rigor;
+
+BOOST_AUTO_TEST_SUITE(relations_truths)
+
+BOOST_AUTO_TEST_CASE(the_reference_keeps_relations_within_its_claims) {
+  test::check(test::run_of_truth("reference", 0.2, 4), "smooth", 2);
+  test::check(test::run_of_truth("reference", 0.2, 4), "mechanisms", 4);
+}
+
+BOOST_AUTO_TEST_CASE(the_truth_by_events_keeps_relations_within_its_claims) {
+  for (const char* scenes : {"on a plane", "in flight", "cylinders", "line contacts", "once contradicted"})
+    test::check(test::run_of_truth("events", 0.8, 4), scenes, 2);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
