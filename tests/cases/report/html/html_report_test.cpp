@@ -129,6 +129,22 @@ BOOST_AUTO_TEST_CASE(every_trial_of_a_recording_can_be_played) {
   BOOST_TEST(opens_well("trial_page_test.mjs", folder, out + "/report.html", out + "/results.json", "trials"));
 }
 
+// A body has more parts than there are bodies.
+BOOST_AUTO_TEST_CASE(each_shape_is_drawn_and_each_part_where_it_is) {
+  Results grid = sample_results();
+  CaseResult shapes = crowd(grid, 6, "shapes/all");
+  const std::vector<Vec3> tetrahedron = {{0, 0, 0.3}, {0.3, 0, -0.1}, {-0.2, 0.3, -0.1}, {-0.2, -0.3, -0.1}};
+  Compound rack;
+  for (int k = 0; k < 8; ++k)
+    rack.parts.push_back({Sphere{0.03}, {Vec3(0.1 * k - 0.35, 0, 0.02 * k), Quat::Identity()}});
+  const Shape all[] = {
+      rack,       Capsule{0.1, 0.3}, Convex{hull_of(tetrahedron)}, Cylinder{0.2, 0.3}, Ellipsoid{{0.1, 0.2, 0.3}},
+      Sphere{0.2}};
+  for (std::size_t i = 0; i < 6; ++i) shapes.definition.scene.bodies[i].shape = all[i];
+  grid.cases.insert(grid.cases.begin(), shapes);
+  BOOST_TEST(says_what_there_is(grid, "shapes"));
+}
+
 BOOST_AUTO_TEST_CASE(names_that_would_do_harm_and_runs_of_every_ending_are_shown) {
   Folder folder;
   Results grid = sample_results();

@@ -30,6 +30,10 @@ try {
   await browser.run("location.hash = '#/' + encodeURIComponent(arguments[0])", one.id);
   await browser.until(`document.querySelector('.view').dataset.loaded?.startsWith(${JSON.stringify(one.id)})`, "the first case", 60);
   expect(await browser.run("return document.querySelector('.scene-sketch').childElementCount > 0"), "the sketch is empty");
+  const bare = await browser.run("return [...document.querySelectorAll('.scene-sketch .solid')].filter((e) => !e.childElementCount).length");
+  expect(bare === 0, `the sketch leaves out ${bare} shapes`);
+  const balls = await browser.run("return [...document.querySelectorAll('.scene-sketch .solid circle')].map((c) => c.getAttribute('cx') + ' ' + c.getAttribute('cy'))");
+  expect(new Set(balls).size === balls.length, "the sketch has two balls in one place");
   const shown = await browser.run("return document.querySelector('.view').innerText");
   expect(!/undefined|NaN/.test(shown), `the case says: ${/.{0,60}(undefined|NaN).{0,60}/.exec(shown)?.[0]}`);
   writeFileSync(join(shots, "case.png"), await browser.screenshot());

@@ -38,7 +38,7 @@ export function extentOf(shape) {
   return away + ownExtentOf(shape);
 }
 
-function ownExtentOf(shape) {
+export function ownExtentOf(shape) {
   if (shape.type === "sphere") return shape.radius;
   if (shape.type === "cylinder") return Math.hypot(shape.radius, shape.length / 2);
   if (shape.type === "ellipsoid") return Math.max(...shape.radii);

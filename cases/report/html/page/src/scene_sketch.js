@@ -1,7 +1,7 @@
 // A still drawing of a scene at t = 0: shapes, springs, joints and planes, in a slanted view with gravity downwards.
 import { el, svg } from "./dom.js";
 import { jointsOf } from "./joint_model.js";
-import { coil, drawables, extentOf, pointOf, springsOf, turn, up } from "./scene_model.js";
+import { coil, drawables, inBody, ownExtentOf, pointOf, rimsOf, springsOf, turn, up } from "./scene_model.js";
 import { cross, dot, unit } from "./vectors.js";
 
 const width = 340,
@@ -10,7 +10,6 @@ const width = 340,
   mostBodies = 400,
   mostFacets = 2000,
   fewNames = 4;
-
 
 // The horizontal direction along which the points spread most lies across the picture; the other one is slanted.
 function viewOf(scene, points) {
@@ -69,7 +68,7 @@ class Sketch {
       ...this.springs.flatMap((s) => [this.point(s.a, s.pointA), this.point(s.b, s.pointB)]),
       ...this.joints.map((j) => this.point(j.b, j.pointB)),
     ];
-    const centres = this.solids.map((s) => [this.centre(s), extentOf(s)]);
+    const centres = this.solids.map((s) => [this.centre(s), ownExtentOf(s)]);
     const points = [...centres, ...ends.map((p) => [p, 0])];
     if (!points.length) points.push([[0, 0, 0], 1]);
     Object.assign(this, viewOf(scene, points.map(([p]) => p)));
@@ -77,29 +76,31 @@ class Sketch {
   }
 
   point = (body, local) => [...pointOf(this.poses, body, local)];
-  centre = ({ index }) => [...this.poses.subarray(7 * index, 7 * index + 3)];
+  // A point in the frame of a shape, which may be a part of its body.
+  place = (shape, local) => this.point(shape.index, inBody(shape, local));
+  centre = (shape) => this.place(shape, [0, 0, 0]);
 
   shape(shape) {
-    const at = this.centre(shape),
-      [x, y] = this.at(at),
+    const [x, y] = this.at(this.centre(shape)),
       kind = shape.fixed ? "is-fixed" : "";
     if (shape.type === "sphere") return svg("circle", { class: kind, cx: x, cy: y, r: Math.max(2, this.scale * shape.radius) });
     if (shape.type === "capsule") {
-      const ends = [-1, 1].map((end) => this.at(this.point(shape.index, [0, 0, (end * shape.length) / 2])));
+      const ends = [-1, 1].map((end) => this.at(this.place(shape, [0, 0, (end * shape.length) / 2])));
       const thick = Math.max(3, 2 * this.scale * shape.radius);
       return ["edge", "fill"].map((layer, i) =>
         svg("polyline", { class: `capsule-${layer} ${kind}`, points: text(ends), "stroke-width": thick - 3 * i }),
       );
     }
     if (shape.triangles) return this.facets(shape, kind);
+    if (shape.type === "cylinder") return this.cylinder(shape, kind);
+    if (shape.type === "ellipsoid") {
+      const points = directions.map((n) => this.at(this.place(shape, n.map((v, k) => v * shape.radii[k]))));
+      return svg("polygon", { class: kind, points: text(hull(points)) });
+    }
     if (shape.type !== "box") return null;
     const corners = [];
     for (const i of [-1, 1]) for (const j of [-1, 1]) for (const k of [-1, 1]) corners.push([i, j, k]);
-    const [q] = [[...this.poses.subarray(7 * shape.index + 3, 7 * shape.index + 7)]];
-    const flat = corners.map((c) => {
-      const turned = turn(q, c.map((s, axis) => (s * shape.size[axis]) / 2));
-      return this.at(at.map((v, axis) => v + turned[axis]));
-    });
+    const flat = corners.map((c) => this.at(this.place(shape, c.map((s, axis) => (s * shape.size[axis]) / 2))));
     const edges = corners.flatMap((a, i) =>
       corners.slice(i + 1).map((b, j) => [i, i + 1 + j]).filter(([, j]) => a.filter((v, k) => v !== corners[j][k]).length === 1),
     );
@@ -109,9 +110,17 @@ class Sketch {
     ];
   }
 
+  // Its outline, and the rim that is nearer.
+  cylinder(shape, kind) {
+    const rims = rimsOf(shape).map((p) => this.place(shape, p)),
+      [one, other] = [rims.slice(0, rims.length / 2), rims.slice(rims.length / 2)],
+      nearer = this.depth(one[0]) + this.depth(one[one.length / 2]) < this.depth(other[0]) + this.depth(other[one.length / 2]) ? one : other;
+    return [rims, nearer].map((points) => svg("polygon", { class: kind, points: text(hull(points.map(this.at))) }));
+  }
+
   // The triangles of a hull or a surface, the farthest first.
   facets(shape, kind) {
-    const corners = shape.points.map((p) => this.point(shape.index, p)),
+    const corners = shape.points.map((p) => this.place(shape, p)),
       away = (triangle) => triangle.reduce((sum, k) => sum + this.depth(corners[k]), 0);
     return [...shape.triangles]
       .sort((a, b) => away(b) - away(a))
@@ -157,11 +166,11 @@ class Sketch {
   }
 
   names() {
-    const moving = this.solids.filter((s) => !s.fixed);
+    const moving = this.solids.filter((s, i) => !s.fixed && this.solids[i - 1]?.index !== s.index); // a body's first part
     if (moving.length > fewNames) return null;
     return moving.map((s) => {
       const [x, y] = this.at(this.centre(s));
-      return svg("text", { x: Math.min(x, width - 40), y: Math.min(height - 4, y + (s.type === "sphere" ? this.scale * extentOf(s) : Math.min(26, this.scale * extentOf(s))) + 13), "text-anchor": "middle" }, s.name.slice(0, 24));
+      return svg("text", { x: Math.min(x, width - 40), y: Math.min(height - 4, y + (s.type === "sphere" ? this.scale * ownExtentOf(s) : Math.min(26, this.scale * ownExtentOf(s))) + 13), "text-anchor": "middle" }, s.name.slice(0, 24));
     });
   }
 
@@ -181,6 +190,13 @@ class Sketch {
     );
   }
 }
+
+// Evenly over the sphere, along a spiral.
+const directions = Array.from({ length: 200 }, (_, k) => {
+  const z = 1 - (2 * k + 1) / 200,
+    r = Math.sqrt(1 - z * z);
+  return [r * Math.cos(2.39996 * k), r * Math.sin(2.39996 * k), z];
+});
 
 const counted = (n, word) => (n === 1 ? `1 ${word}` : `${n} ${word.replace(/y$/, "ie")}s`);
 

@@ -153,7 +153,7 @@ export class Stage {
       p.forEach((v, k) => ((low[k] = Math.min(low[k], v - r)), (high[k] = Math.max(high[k], v + r))));
     const largest = Math.max(...this.shapes.map(extentOf), 1e-3);
     this.shapes.forEach(
-      (shape, i) => shape.type !== "plane" && include(this.one.scene.bodies[i].position, extentOf(shape)),
+      (shape) => shape.type !== "plane" && include(this.one.scene.bodies[shape.index].position, extentOf(shape)),
     );
     for (const s of springsOf(this.one.scene)) if (s.a < 0) include(s.pointA, 0);
     // Without a truth to say how far bodies are meant to come, one that runs away must not make the rest small.
