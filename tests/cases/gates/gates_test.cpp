@@ -232,29 +232,6 @@ BOOST_AUTO_TEST_CASE(a_blown_up_run_is_never_good_where_more_is_better) {
   BOOST_TEST((run.check(limit).front().answer == GateAnswer::failed));
 }
 
-BOOST_AUTO_TEST_CASE(a_spread_is_held_against_every_pair_a_gate_selects) {
-  GatedGrid run;
-  run.result().spreads = {{0, 1, {0.1, "1/10"}, {0.5, 0.3, 0}, {0.01, 0.2, 0}, 0.1, 0.5},
-                          {0, 1, {0.05, "1/20"}, {0.125, 0.3, 0}, {0.02, 0.2, 0}, 0.1, 0.5}};
-  Gate limit = gate("spread");
-  test::limit_as<BoundLimit>(limit).max = 0.25;
-  BOOST_TEST(count(run.check(limit), GateAnswer::held) == 1);
-  BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 1);
-  const std::string text = run.check(limit).front().text;
-  for (const std::string part : {"a and b", "0.5 m", "0.3 s", "stone"}) {
-    BOOST_TEST(text.find(part) != std::string::npos, part << " in " << text);
-  }
-  Gate turn = gate("spread_orientation");
-  test::limit_as<BoundLimit>(turn).max = 0.015, turn.dt = {{0.1, "1/10"}};
-  BOOST_TEST((run.check(turn).front().answer == GateAnswer::held));
-  limit.engines = {"a"};  // no pair
-  BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked));
-  limit.engines = {}, test::limit_as<BoundLimit>(limit).max = 10;
-  run.cell(2).status = Status::diverged;
-  BOOST_TEST(count(run.check(limit), GateAnswer::failed) == 1);
-  BOOST_TEST(count(run.check(limit), GateAnswer::held) == 1);
-}
-
 BOOST_AUTO_TEST_CASE(a_familys_gate_says_nothing_of_a_case_that_it_does_not_meet_but_of_a_whole_suite) {
   GatedGrid run;
   Gate limit = gate("creep");  // which no cell has
@@ -328,22 +305,6 @@ BOOST_AUTO_TEST_CASE(each_cell_of_an_order_that_was_not_stepped_by_its_own_metho
   BOOST_TEST_REQUIRE(answers.size() == 1u);
   BOOST_TEST(answers.front().caveat ==
              "at dt = 1/10 from 0.2 s on stepped by short steps; at dt = 1/20 from 0.2 s on stepped by short steps");
-}
-
-BOOST_AUTO_TEST_CASE(a_spread_of_a_pair_or_a_step_that_is_not_selected_is_not_judged) {
-  GatedGrid run;
-  run.result().spreads = {{0, 1, {0.1, "1/10"}, {0.5, 0.3, 0}, {0.01, 0.2, 0}, 0.1, 0.5}};
-  Gate limit = gate("spread");
-  test::limit_as<BoundLimit>(limit).max = 1;
-  for (const char* one : {"a", "b"}) {
-    limit.engines = {one};
-    BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked), one);
-  }
-  limit.engines = {}, limit.dt = {{0.05, "1/20"}};
-  BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked));
-  // Of a run with itself at its finest step it is another question.
-  run.result().spreads[0].second = 0, limit.dt = {};
-  BOOST_TEST((run.check(limit).front().answer == GateAnswer::not_checked));
 }
 
 // A share has no unit: eight roundings in each of ten steps are 4.8e-6 of it at most.
