@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/dynamics/joints/joint_constraint.h"
+#include "core/dynamics/model/hinge_angle.h"
 
 namespace rigor {
 namespace {
@@ -14,9 +15,8 @@ class Screw : public JointConstraint {
       : runs_(make_masked(Lock::across | Lock::tilt, &joint.anchor, &joint.axis, ends)),
         pitch_(joint.pitch),
         axis_a_(ends.direction_in_a(joint.axis)),
-        across_a_(ends.direction_in_a(joint.axis.unitOrthogonal())),
-        first_b_(ends.direction_in_b(joint.axis.unitOrthogonal())),
-        second_b_(ends.direction_in_b(joint.axis.cross(joint.axis.unitOrthogonal()))),
+        angle_{ends.direction_in_a(joint.axis.unitOrthogonal()), ends.direction_in_b(joint.axis.unitOrthogonal()),
+               ends.direction_in_b(joint.axis.cross(joint.axis.unitOrthogonal()))},
         arm_b_(ends.in_b(joint.anchor)),
         start_(joint.axis.dot(joint.anchor - ends.a.position)) {}
 
@@ -42,20 +42,17 @@ class Screw : public JointConstraint {
 
  private:
   double thread_gap(const EndMotion& a, const EndMotion& b, double way) const {
-    const Vec3 axis = a.R * axis_a_, first = a.R * across_a_, second = axis.cross(first);
-    const Vec3 to_first = b.R * first_b_, to_second = b.R * second_b_;
-    const double turns =
-        portable::atan2(second.dot(to_first) - first.dot(to_second), first.dot(to_first) + second.dot(to_second)) /
-        (2 * std::numbers::pi);
+    const double turns = angle_.at(a.R * axis_a_, a.R, b.R) / (2 * std::numbers::pi);
     const double off = way / pitch_ - turns;
     return pitch_ * (off - std::round(off));
   }
 
-  std::unique_ptr<JointConstraint> runs_;        // as a cylindrical joint
-  double pitch_;                                 // m per turn
-  Vec3 axis_a_, across_a_, first_b_, second_b_;  // unit; two directions across, as in JointCoordinate
-  Vec3 arm_b_;                                   // m, in b's frame
-  double start_;                                 // m: of the point along the axis, from a's centre
+  std::unique_ptr<JointConstraint> runs_;  // as a cylindrical joint
+  double pitch_;                           // m per turn
+  Vec3 axis_a_;                            // unit
+  HingeAngle angle_;
+  Vec3 arm_b_;    // m, in b's frame
+  double start_;  // m: of the point along the axis, from a's centre
 };
 
 }  // namespace

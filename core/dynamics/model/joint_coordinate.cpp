@@ -23,8 +23,8 @@ JointCoordinate::JointCoordinate(const Scene& scene, const Joint& joint)
     series_.emplace(of_compound->axes, a, b), index_ = of_compound->index;
   const Vec3 axis = *free_axis(joint), across = axis.unitOrthogonal();
   axis_a_ = a.orientation.conjugate() * axis;
-  across_a_ = a.orientation.conjugate() * across;
-  first_b_ = b.orientation.conjugate() * across, second_b_ = b.orientation.conjugate() * axis.cross(across);
+  angle_ = {a.orientation.conjugate() * across, b.orientation.conjugate() * across,
+            b.orientation.conjugate() * axis.cross(across)};
   start_ = axis.dot(b.position - a.position);
 }
 
@@ -39,9 +39,7 @@ JointCoordinate::Value JointCoordinate::on_axis(BodyColumns bodies) const {
   const Vec3 axis = a.R * axis_a_;
   Value value;
   if (turns_) {
-    const Vec3 first = a.R * across_a_, second = axis.cross(first), to_first = b.R * first_b_,
-               to_second = b.R * second_b_;
-    value.x = portable::atan2(second.dot(to_first) - first.dot(to_second), first.dot(to_first) + second.dot(to_second));
+    value.x = angle_.at(axis, a.R, b.R);
     value.rate = axis.dot(b.angular_velocity - a.angular_velocity);
     value.bias = a.angular_velocity.cross(axis).dot(b.angular_velocity);
     value.torque_a = -axis, value.torque_b = axis;

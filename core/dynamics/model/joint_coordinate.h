@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "core/dynamics/model/hinge_angle.h"
 #include "core/engine/body_table.h"
 #include "core/scene/joints/axis_series.h"
 #include "core/scene/scene.h"
@@ -42,9 +43,7 @@ class JointCoordinate {
   std::optional<AxisSeries> series_;  // of an axis of a compound joint,
   std::size_t index_ = 0;             // and which of them it is
   Vec3 axis_a_;                       // unit, in a's frame
-  // Two directions across a hinge's axis, in a's frame and in b's; the same at t = 0. The angle is the mean over both.
-  // So the choice of the two does not matter, even where the stages of an integrator leave the axes slightly apart.
-  Vec3 across_a_, first_b_, second_b_;
+  HingeAngle angle_;                  // of a hinge
   double start_ = 0;                  // m: where b's centre is along the axis at t = 0; of a slider
 };
 
