@@ -70,17 +70,35 @@ bool has_word(const Json& variant, const std::string& word) {
   return false;
 }
 
-// The variant of this word, with its own copy of the rules; else `fresh`.
-Json variant_of(const Json& variants, const std::string& word, Json fresh) {
-  for (const Json& variant : variants)
-    if (has_word(variant, word)) fresh = variant;
-  fresh["properties"]["type"] = {{"const", word}};
-  return fresh;
+// Required keys that the tables do not know, for readers of their own read them.
+bool is_read_apart(const std::string& word, const std::string& key) {
+  static const std::map<std::string, std::vector<std::string>> kKeys = {
+      {"compound", {"axes", "parts"}},     {"convex", {"points", "triangles"}},
+      {"hinge", {"damping", "stiffness"}}, {"heightfield", {"heights", "points", "size", "triangles"}},
+      {"mesh", {"points", "triangles"}},   {"slider", {"damping", "stiffness"}}};
+  const auto row = kKeys.find(word);
+  return row != kKeys.end() && std::find(row->second.begin(), row->second.end(), key) != row->second.end();
 }
 
 void require(Json& variant, const std::string& key) {
   Json& required = variant["required"];
   if (std::find(required.begin(), required.end(), key) == required.end()) required.push_back(key);
+}
+
+// The variant of this word with its own copy of the rules, or else `fresh`. It requires the keys of `fresh`, those of
+// the table, and those that are read apart.
+Json variant_of(const Json& variants, const std::string& word, const Json& fresh,
+                const std::vector<std::string>& keys) {
+  Json made = fresh;
+  for (const Json& variant : variants)
+    if (has_word(variant, word)) made = variant;
+  const Json before = made["required"];
+  made["required"] = fresh.at("required");
+  for (const std::string& key : keys) require(made, key);
+  for (const std::string key : before)
+    if (is_read_apart(word, key)) require(made, key);
+  made["properties"]["type"] = {{"const", word}};
+  return made;
 }
 
 // A key that has a rule keeps it.
@@ -108,8 +126,7 @@ Json shapes_of(const Json& old, const Json& fresh, const Takes& takes, const Add
   Json variants = Json::array();
   for (const ShapeInfo& row : shape_types()) {
     if (!takes(row)) continue;
-    Json variant = variant_of(old, row.word, fresh);
-    for (const std::string& key : row.keys) require(variant, key);
+    Json variant = variant_of(old, row.word, fresh, row.keys);
     add(row, variant);
     variants.push_back(variant);
   }
@@ -130,8 +147,7 @@ Json joints_of(const Json& old, Json fresh, const RuleOf& rule_of_vector) {
   Json variants = Json::array();
   for (const JointTypeInfo& row : joint_types()) {
     if (!row.is_whole) continue;
-    Json variant = variant_of(old, row.word, fresh);
-    for (const std::string& key : row.keys) require(variant, key);
+    Json variant = variant_of(old, row.word, fresh, row.keys);
     for_each_vector(row.prototype, [&](const char* key, JointVector kind, const Vec3&) {
       add_key(variant, key, rule_of_vector(kind));
     });
