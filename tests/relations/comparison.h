@@ -19,7 +19,7 @@ struct Tally {
 };
 
 struct Tallies {
-  int scenes = 0, supported = 0;
+  int scenes = 0, asked = 0, supported = 0;  // asked: those that the run declares that it supports
   // The sum over scenes of the share of time that is compared. It ends where the motion becomes chaotic, where the run
   // gives up, or where a truth claims more than 1e-6 m.
   double followed = 0;

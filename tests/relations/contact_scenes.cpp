@@ -35,32 +35,32 @@ ContactLaw any_law(Random& random) {
   return {restitution, random.one_of<double>({0, 0.2, 0.5, 0.9})};
 }
 
-}  // namespace
-
-Scene bodies_on_plane(unsigned seed) {
-  Random random(seed);
+template <typename ShapeOf>
+Scene above_plane(Random& random, int count, const ShapeOf& shape_of) {
   Scene scene;
   scene.gravity = {0, 0, -9.81};
-  const int count = 1 + random.below(4);
-  for (int i = 0; i < count; ++i) scene.bodies.push_back(thrown(random, i, any_shape(random)));
+  for (int i = 0; i < count; ++i) scene.bodies.push_back(thrown(random, i, shape_of(i)));
   add_plane(scene, random);
   scene.contact_default = any_law(random);
   return scene;
 }
 
+}  // namespace
+
+Scene bodies_on_plane(unsigned seed) {
+  Random random(seed);
+  const int count = 1 + random.below(4);
+  return above_plane(random, count, [&](int) { return any_shape(random); });
+}
+
 Scene cylinder_on_plane(unsigned seed) {
   Random random(seed);
-  Scene scene;
-  scene.gravity = {0, 0, -9.81};
   const int count = 1 + random.below(3), cylinder = random.below(count);
-  for (int i = 0; i < count; ++i) {
+  return above_plane(random, count, [&](int i) {
     Shape shape = Sphere{random.between(0.1, 0.2)};
     if (i == cylinder) shape = Cylinder{random.between(0.1, 0.2), random.between(0.1, 0.4)};
-    scene.bodies.push_back(thrown(random, i, shape));
-  }
-  add_plane(scene, random);
-  scene.contact_default = any_law(random);
-  return scene;
+    return shape;
+  });
 }
 
 Scene bodies_in_flight(unsigned seed) {

@@ -6,7 +6,7 @@
 namespace rigor::test {
 namespace {
 
-// The reader must not touch files that the repository does not have, so that these stand here.
+// As in a case file, with the digits that matter.
 Scene read(const std::string& bodies, const char* law) {
   const std::string text = "title = \"x\"\n[scene]\ngravity = [0.0, 0.0, -9.81]\n" + bodies +
                            "[scene.contact_default]\n" + law +
@@ -86,15 +86,21 @@ shape = { type = "plane", normal = [-0.01, 0.1, 1.0], offset = 0.0 }
 }  // namespace
 
 Scene once_contradicted(unsigned seed) {
-  switch (seed % 4) {
+  switch (seed % kContradicted) {
     case 0:
       return slip_begins();
     case 1:
       return box_of_units();
     case 2:
       return box_of_mirror_72();
-    default:
+    case 3:
       return box_of_mirror_76();
+    // A ball rolls past the end of a capsule. The acceleration of its contact jumps there, wherever the steps end.
+    case 4:
+      return bodies_on_plane(9045);
+    // A box clatters between two of its edges while it slides. The last bounces are no higher than roundings of a gap.
+    default:
+      return bodies_on_plane(9188);
   }
 }
 

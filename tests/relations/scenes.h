@@ -31,7 +31,8 @@ Scene cylinder_on_plane(unsigned seed);
 Scene line_contact(unsigned seed);
 // A box that lands on four corners at once.
 Scene level_box(unsigned seed);
-// Four scenes whose truths once contradicted those of related scenes.
+// Scenes whose truths or runs once contradicted those of related scenes. There are only so many.
+inline constexpr int kContradicted = 6;
 Scene once_contradicted(unsigned seed);
 
 }  // namespace rigor::test
