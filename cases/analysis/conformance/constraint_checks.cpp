@@ -84,7 +84,7 @@ CheckResult of_joint(const Trial& trial, const Joined& joined) {
   rod.name = "rod", rod.position = {0.5, 0, 0}, rod.inertia = Vec3(0.01, 0.09, 0.09).asDiagonal();
   Scene scene = scene_of(rod, {1, 0.5, -9.81});
   scene.joints = {{.a = kWorld, .b = 0, .type = joined.joint}};
-  // About each axis, so that the rod turns wherever the joint lets it.
+  // About each axis, so that the rod turns wherever the joint lets it. An engine may know no torques.
   scene.forces = {{.body = 0, .torque = {0.1, 0.1, 0.1}}};
   if (!why_not(trial, scene, kStep).empty()) scene.forces.clear();
   if (const std::string why = why_not(trial, scene, kStep); !why.empty()) return not_asked(why);

@@ -54,8 +54,8 @@ struct NearestPart {
   Vec3 at = Vec3::Zero();
 };
 
-// Of the corners of a part with so many sides from the first corner on: its point that is nearest to the origin, which
-// may lie outside of the part.
+// The weights of the corners at the point nearest to the origin: of a line, a plane or space through all of them. That
+// point may lie outside of the part. `Sides`: the number of corners but the first.
 template <int Sides>
 Weights weights_of(const Simplex& corners) {
   Eigen::Matrix<double, 3, Sides> sides;

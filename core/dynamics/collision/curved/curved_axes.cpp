@@ -47,9 +47,9 @@ struct TouchingPart {
   }
 };
 
-// m: how deep a point lies in a cylinder; negative outside of it. Of ellipsoids it is not asked.
+// m: how deep a point lies in a cylinder; negative outside of it. An ellipsoid has no such formula, and proves nothing.
 double depth_in(const CurvedSolid& solid, const Vec3& p) {
-  if (!solid.is_cylinder) return -1;
+  if (!solid.is_cylinder) return -std::numeric_limits<double>::infinity();
   const Vec3 from = p - solid.centre;
   return std::min(solid.radius() - solid.across(from).norm(), solid.half() - std::abs(from.dot(solid.axis())));
 }

@@ -1,4 +1,4 @@
-// Features end: an edge at its corners, a side at its edges, a flat region of triangles at its border,
+// The ends of features: an edge ends at its corners, a side at its edges, a flat region of triangles at its border,
 // a rim where it turns over.
 #pragma once
 
