@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/dynamics/collision/curved/curved_ways.h"
 #include "core/dynamics/collision/curved/smooth_ascent.h"
@@ -17,21 +18,25 @@ constexpr double kShallow = 0.01;      // of the smaller inradius: an overlap
 constexpr double kRoundingOf = 1e-13;  // of the size: directions that gain less count as equal
 
 struct FromSolid {
-  const CurvedSolid& solid;
-  const CurvedSolid& other;
+  CurvedSolid solid, other;
 
   SeparationAt operator()(const Vec3& n) const {
     return {solid.centre - other.centre - solid.support(n) - other.support(n), -solid.bend(n) - other.bend(n)};
   }
 };
 
-// The part of a solid that is smooth around its support along n: of a cylinder, that rim.
-CurvedSolid smooth_part(const CurvedSolid& solid, const Vec3& n) {
+// The part of a solid that is smooth: of a cylinder, the rim on this side (1 or -1) of its middle.
+CurvedSolid smooth_part(const CurvedSolid& solid, double side) {
   CurvedSolid part = solid;
   if (!solid.is_cylinder) return part;
-  part.centre += (n.dot(solid.axis()) < 0 ? -1 : 1) * solid.half() * solid.axis();
+  part.centre += side * solid.half() * solid.axis();
   part.radii.z() = 0;
   return part;
+}
+
+// The same around its support along n.
+CurvedSolid smooth_part(const CurvedSolid& solid, const Vec3& n) {
+  return smooth_part(solid, n.dot(solid.axis()) < 0 ? -1.0 : 1.0);
 }
 
 // What touches first along a direction: a point, the straight side of a cylinder, or its flat end.
@@ -159,6 +164,7 @@ class FromCurved {
     for (const CurvedAxis& start : starts_) {
       if (std::isfinite(start.separation)) climb_from(start.n);
     }
+    climb_on();
     return best_;
   }
 
@@ -203,6 +209,26 @@ class FromCurved {
       if (!is_top && rim->across(start).norm() < kNearlyFlat) start = (out + kAway / length * aside).normalized();
     }
     offer(uphill(both, start, size_));
+  }
+
+  // A climb may have ended at a kink. From there, each pair of smooth parts, and directions around, may lead on.
+  void climb_on() {
+    constexpr int kMostRounds = 3;
+    double before = -std::numeric_limits<double>::infinity();
+    for (int round = 0; round < kMostRounds && best_.separation > before && !is_surely_best(); ++round) {
+      before = best_.separation;
+      const Vec3 n = best_.n;
+      const Tangents along = tangents_of(n);
+      for (const double side : {1.0, -1.0}) {
+        for (const double other_side : {1.0, -1.0})
+          offer(uphill(FromSolid{smooth_part(solid_, side), smooth_part(other_, other_side)}, n, size_));
+        for (const double aside : {1.0, -1.0}) {
+          climb_from((n + kAway * std::numbers::sqrt2 / 2 * (side * along.first + aside * along.second)).normalized());
+        }
+        climb_from((n + kAway * side * along.first).normalized());
+        climb_from((n + kAway * side * along.second).normalized());
+      }
+    }
   }
 
   // Solids that are apart are nearest where the parts that touch first face each other: the separation is concave.

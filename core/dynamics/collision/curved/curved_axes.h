@@ -17,9 +17,8 @@ struct CurvedAxis {
   int corner = -1, edge = -1;                                    // of a hull or line: what touches, if not a face
 };
 
-// Exact for shapes that are apart, and for shallow overlaps, but for one pair of rounded parts in 1,100, where the
-// search ends at a kink. A deep overlap may be found along a longer way than the shortest one. Of shapes further apart
-// than `far` [m] it may be any axis along which they are.
+// Exact for shapes that are apart. An overlap may be found along a longer way than the shortest one: seldom where it is
+// shallow (core/README.md has figures). Of shapes further apart than `far` [m] it may be any axis along which they are.
 CurvedAxis best_axis(const CurvedSolid& solid, const PlacedHull& hull, double far);
 CurvedAxis best_axis(const CurvedSolid& solid, const Line& line);
 CurvedAxis best_axis(const CurvedSolid& solid, const CurvedSolid& other, double far);
