@@ -22,7 +22,7 @@
 #define RIGOR_MISSING_ENGINES
 #endif
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 #define ROW(engine) EngineRow engine##_row();
 RIGOR_ENGINE_ROWS
@@ -171,4 +171,4 @@ void EngineTable::rest() const {
 
 const Engine& EngineTable::find(const std::string& name) const { return *engines_[index_of(name)]; }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -7,7 +7,7 @@
 #include "core/engine/engine.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Asks each engine for its facts once, when it is added.
 class EngineTable {
@@ -61,4 +61,4 @@ std::vector<std::string> engine_calls(const RunName& run, const std::string& dt)
 inline const std::vector<EngineInfo>& infos_of(const EngineTable& table) { return table.infos(); }
 inline const Engine& find_engine(const EngineTable& table, const std::string& name) { return table.find(name); }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -143,7 +143,7 @@ std::string arrows_between_adapters(const std::vector<Include>& includes) {
 // Types in named namespaces, and the lines of their definitions. Files are formatted by clang-format: a line without
 // indent is directly in a namespace, and a namespace of more than one line is closed by its name.
 std::map<std::string, Names> types_in(const std::string& file, std::istream& in) {
-  static const std::regex space("(?:inline )?namespace ?([\\w:]*) \\{"),
+  static const std::regex space("(?:inline )?namespace ?([\\w: ]*) \\{"),
       type("(?:struct|class|enum class) (\\w+)(?: final)?(?: :[^;{]*)? \\{.*");
   std::map<std::string, Names> found;
   Names spaces;
@@ -165,7 +165,94 @@ std::map<std::string, Names> types_in(const std::string& file, std::istream& in)
   return found;
 }
 
+// The namespace of the files below a folder; of several, that of the longest one. They are inline, so that another room
+// says `Scene` for rigor::scene::Scene, and the compiler refuses a name that two rooms have.
+struct RoomNamespace {
+  std::string folder, name;
+};
+
+const std::vector<RoomNamespace> kNamespaces = {
+    {"core/", "rigor"},
+    {"core/scene/", "rigor::inline scene"},
+    {"core/engine/", "rigor::inline engine"},
+    {"core/dynamics/", "rigor::inline dynamics"},
+    {"adapters/", "rigor::inline adapters"},
+    {"cases/import/", "rigor::inline imports"},
+    {"cases/case/", "rigor::inline cases"},
+    {"cases/truth/", "rigor::inline truth"},
+    {"cases/metrics/", "rigor::inline metric"},
+    {"cases/results/", "rigor::inline results"},
+    {"cases/runner/", "rigor::inline runner"},
+    {"cases/gates/", "rigor::inline gates"},
+    {"cases/analysis/", "rigor::inline analysis"},
+    {"cases/report/", "rigor::inline report"},
+    {"cases/laboratory/", "rigor::inline laboratory"},
+    {"cases/cli/", "rigor::inline cli"},
+    {"cases/python/", "rigor::python"},
+    {"bench/", "rigor::bench"},
+};
+
+const std::string& namespace_of(const std::string& file) {
+  const RoomNamespace* best = nullptr;
+  for (const RoomNamespace& one : kNamespaces) {
+    if (file.starts_with(one.folder) && (!best || one.folder.size() > best->folder.size())) best = &one;
+  }
+  BOOST_TEST_REQUIRE(best, file << " is in no room");
+  return best->name;
+}
+
+// Namespaces below rigor that a file opens at the left margin for more than forward declarations, each with its line.
+std::map<std::string, int> opened_in(std::istream& in) {
+  static const std::regex opening("namespace (rigor[\\w: ]*) \\{"),
+      declaration("(?:struct|class|enum class) [\\w: ]+;|");
+  std::map<std::string, int> opened;
+  std::string text, name;
+  std::smatch match;
+  int at = 0;
+  for (int line = 1; std::getline(in, text); ++line) {
+    if (std::regex_match(text, match, opening)) {
+      name = match[1], at = line;
+    } else if (text.starts_with("}")) {
+      name.clear();
+    } else if (!name.empty() && !std::regex_match(text, declaration)) {
+      opened.emplace(name, at);
+    }
+  }
+  return opened;
+}
+
+// "file:line: namespace": those that `file` opens and that are not its room's.
+std::string foreign_namespaces(const std::string& file, std::istream& in) {
+  const std::string& room = namespace_of(file);
+  std::string text;
+  for (const auto& [name, line] : opened_in(in)) {
+    if (name != room && !name.starts_with(room + "::")) text += file + ":" + std::to_string(line) + ": " + name + "\n";
+  }
+  return text;
+}
+
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(a_file_opens_the_namespace_of_its_room) {
+  std::istringstream right(
+      "namespace rigor::inline scene {\nstruct Later;\n}\n\nnamespace rigor::inline gates {\nint a;\n}"),
+      wrong("namespace rigor {\n\nint a;\n\n}  // namespace rigor\n"),
+      inner("namespace rigor::inline adapters::bullet {\n\nint a;\n");
+  BOOST_TEST(foreign_namespaces("cases/gates/gates.h", right) == "");
+  BOOST_TEST(foreign_namespaces("cases/gates/gates.h", wrong) == "cases/gates/gates.h:1: rigor\n");
+  BOOST_TEST(foreign_namespaces("adapters/bullet/bullet_turn.h", inner) == "");
+  std::size_t read = 0;
+  std::string foreign;
+  for (const char* room : {"core", "adapters", "cases", "bench"}) {
+    for (const std::string& file : sources_in(room)) {
+      std::ifstream in(kTop / file);
+      foreign += foreign_namespaces(file, in);
+      ++read;
+    }
+  }
+  BOOST_TEST(foreign == "");
+  BOOST_TEST(read > 1000u);
+}
 
 BOOST_AUTO_TEST_CASE(a_room_includes_only_rooms_before_it) {
   const std::vector<Include> includes = all_includes();

@@ -7,7 +7,7 @@
 #include "adapters/bullet/bullet_options.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 void append(std::vector<std::string>& calls, const std::vector<std::string>& more) {
@@ -86,4 +86,4 @@ std::vector<std::string> bullet_calls(const Settings& settings, const std::strin
   return calls;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

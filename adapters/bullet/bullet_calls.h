@@ -6,8 +6,8 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<std::string> bullet_calls(const Settings& settings, const std::string& dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -2,7 +2,7 @@
 
 #include "adapters/bullet/bullet_convert.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 // The manifolds are those of the step's start, with the impulses that the step has given them. Bullet's normal points
 // from its second body to its first.
@@ -27,4 +27,4 @@ std::vector<ReportedContact> contacts_of(const btCollisionDispatcher& dispatcher
   return contacts;
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

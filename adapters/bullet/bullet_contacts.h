@@ -7,9 +7,9 @@
 
 #include "core/engine/capabilities.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 // The user index of each collision object is its body of the scene. `dt`: the length of the last step [s].
 std::vector<ReportedContact> contacts_of(const btCollisionDispatcher& dispatcher, double dt);
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

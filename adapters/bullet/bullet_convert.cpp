@@ -3,7 +3,7 @@
 #include "adapters/bullet/bullet_surface.h"
 #include "core/base/eigen_of.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 namespace {
 
 // Ours: a box by full edge lengths, Bullet's by half ones; likewise a cylinder's length. Both: a capsule along z by the
@@ -76,4 +76,4 @@ btCollisionShape* add_shape(const Shape& shape, const PrincipalFrame& frame, boo
   return shapes.back().get();
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

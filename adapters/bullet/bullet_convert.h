@@ -11,7 +11,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 inline btVector3 to_bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 inline Vec3 to_rigor(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -43,4 +43,4 @@ using Shapes = std::vector<std::unique_ptr<btCollisionShape>>;
 // there. `has_margins`: hulls keep the margin that Bullet ships.
 btCollisionShape* add_shape(const Shape& shape, const PrincipalFrame& frame, bool has_margins, Shapes& shapes);
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

@@ -16,7 +16,7 @@
 #include "adapters/common/option_values.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // Bullet has no ellipsoid. A hull without a margin sinks centimetres into fine triangles, and moves there.
@@ -105,4 +105,4 @@ EngineRow bullet_row() {
           bullet_calls};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -4,7 +4,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class BulletEngine : public Engine {
  public:
@@ -13,4 +13,4 @@ class BulletEngine : public Engine {
   std::string twin(const Settings& settings) const override;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 #include "adapters/bullet/bullet_convert.h"
 #include "core/dynamics/model/loads/loads.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 namespace {
 
 constexpr double kFar = 1e30;  // m: a limit that is never reached
@@ -209,4 +209,4 @@ void Joints::set_for_step(double t, double dt) {
   }
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

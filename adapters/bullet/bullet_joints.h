@@ -21,7 +21,7 @@
 
 #include "core/engine/capabilities.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 class Joints {
  public:
@@ -76,4 +76,4 @@ class Joints {
   std::vector<btJointFeedback> feedback_;  // by joint
 };
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

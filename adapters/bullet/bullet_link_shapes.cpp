@@ -2,7 +2,7 @@
 
 #include "adapters/bullet/bullet_pair_laws.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 namespace {
 
 constexpr int kTouchesAll = -1, kTouchesNone = 0;
@@ -75,4 +75,4 @@ void LinkShapes::complete(btMultiBodyDynamicsWorld& world, btMultiBody& tree) {
   tree.updateCollisionObjectWorldTransforms(turns, origins);
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

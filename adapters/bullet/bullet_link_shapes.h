@@ -15,7 +15,7 @@
 #include "adapters/bullet/bullet_convert.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 class LinkShapes {
  public:
@@ -55,4 +55,4 @@ class LinkShapes {
   std::vector<std::unique_ptr<btRigidBody>> fixed_;
 };
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

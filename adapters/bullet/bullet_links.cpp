@@ -2,7 +2,7 @@
 
 #include <variant>
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 namespace {
 
 constexpr bool kCollidesWithParent = true;  // the world's rule keeps pairs apart (bullet_link_shapes.h)
@@ -142,4 +142,4 @@ void set_velocities(btMultiBody& tree, int link, const Joint& joint, const Joint
              joint.type);
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

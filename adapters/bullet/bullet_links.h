@@ -9,7 +9,7 @@
 #include "adapters/bullet/bullet_convert.h"
 #include "core/scene/scene.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 // A frame at t = 0: of a body that moves, principal; of the world, and of a fixed body, W.
 struct LinkFrame {
@@ -38,4 +38,4 @@ void add_links(btMultiBody& tree, const Joint& joint, const JointEnds& ends, con
 // Computed from the joint's ends in W. `link`: the child's.
 void set_velocities(btMultiBody& tree, int link, const Joint& joint, const JointEnds& ends);
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 // The share of a joint's gap that a step closes, by a speed that stays. Each step opens a gap of half the path's
 // curvature times (v dt)²; 1/ERP of it remains and costs energy. At 1/30 s a rod released from the horizontal loses 62
@@ -29,4 +29,4 @@ inline double softness(const Scene& scene) {
   return heaviest > 0 ? (scene.joints.empty() ? kContactSoftness : kJointSoftness) / heaviest : 0;
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

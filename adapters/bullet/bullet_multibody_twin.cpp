@@ -5,7 +5,7 @@
 #include "adapters/bullet/bullet_turn.h"
 #include "adapters/common/reduced_twin.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 Quat turned_by_bullet(const Quat& from, const Vec3& w, double dt) { return from * bullet::turn_of(w, dt); }
@@ -27,4 +27,4 @@ const Integrator kBulletMultibodyTwin = {
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, turned_by_bullet); },
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

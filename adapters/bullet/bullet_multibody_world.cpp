@@ -7,7 +7,7 @@
 #include "adapters/bullet/bullet_options.h"
 #include "adapters/common/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using bullet::to_bullet;
@@ -297,4 +297,4 @@ SettingsInForce BulletMultibodyWorld::settings_in_force() const {
   return in_force;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

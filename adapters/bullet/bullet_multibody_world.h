@@ -32,7 +32,7 @@
 #include "core/engine/clock.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class BulletMultibodyWorld : public World, public ReportsReactions, public ReportsContacts {
  public:
@@ -103,4 +103,4 @@ class BulletMultibodyWorld : public World, public ReportsReactions, public Repor
   btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 #include "adapters/bullet/bullet_matched.h"
 #include "core/engine/option_info.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 inline const OptionInfo kIterations{.name = "iterations",
                                     .meaning = "sweeps of the solver a step",
@@ -63,4 +63,4 @@ inline const OptionInfo kGyroscopicLimit{.name = "gyroscopic-limit",
 inline const OptionInfo kSleeping{
     .name = "sleeping", .meaning = "whether slow bodies fall asleep", .choices = {"on", "off"}, .by_default = "off"};
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

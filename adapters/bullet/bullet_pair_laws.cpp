@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 namespace {
 
 // Stands for an infinite coefficient: beyond any force, and times a normal impulse of zero still zero, not "not a
@@ -76,4 +76,4 @@ void adjust_contacts(btCollisionObject& object) {
   object.setCollisionFlags(object.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

@@ -7,7 +7,7 @@
 
 #include "core/scene/contact_laws.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 // Once in a process; any number of times is the same.
 void install_pair_laws();
@@ -19,4 +19,4 @@ void follow_laws(btCollisionObject& object, const ContactLaws& laws, int index);
 // (bullet_surface.h). This costs a call for each new contact point.
 void adjust_contacts(btCollisionObject& object);
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

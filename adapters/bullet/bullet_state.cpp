@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 namespace {
 
 void archive_vector(StateArchive& archive, btVector3& v) { archive(v.m_floats[0], v.m_floats[1], v.m_floats[2]); }
@@ -168,4 +168,4 @@ void archive_sleep(StateArchive& archive, btDiscreteDynamicsWorld& world) {
   });
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

@@ -7,7 +7,7 @@
 
 #include "core/engine/state_archive.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 // Poses and velocities, with those that the next collision search interpolates from.
 void archive_bodies(StateArchive& archive, btDiscreteDynamicsWorld& world);
@@ -17,4 +17,4 @@ void archive_contacts(StateArchive& archive, btDiscreteDynamicsWorld& world);
 // Which bodies are awake, and for how long they have been slow.
 void archive_sleep(StateArchive& archive, btDiscreteDynamicsWorld& world);
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

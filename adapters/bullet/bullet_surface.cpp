@@ -2,7 +2,7 @@
 
 #include <BulletCollision/CollisionDispatch/btInternalEdgeUtility.h>
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 SurfaceArrays::SurfaceArrays(const TriangleSurface& surface) {
   for (const Vec3& point : surface.points) points.insert(points.end(), {point.x(), point.y(), point.z()});
@@ -25,4 +25,4 @@ SurfaceOfTriangles::SurfaceOfTriangles(const TriangleSurface& surface, bool know
   btGenerateInternalEdgeInfo(this, &edges_);
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

@@ -8,7 +8,7 @@
 
 #include "core/scene/shapes/surface.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 struct SurfaceArrays {
   explicit SurfaceArrays(const TriangleSurface& surface);
@@ -27,4 +27,4 @@ class SurfaceOfTriangles : private SurfaceArrays, public btBvhTriangleMeshShape 
   btTriangleInfoMap edges_;
 };
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

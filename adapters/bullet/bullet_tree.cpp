@@ -1,6 +1,6 @@
 #include "adapters/bullet/bullet_tree.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 namespace {
 
 class Forest {
@@ -54,4 +54,4 @@ class Forest {
 
 std::vector<Tree> trees_of(const Scene& scene) { return Forest(scene).grow(); }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 // A body that hangs on its parent by a joint.
 struct Branch {
@@ -23,4 +23,4 @@ struct Tree {
 // Every moving body belongs to one of them. The joints must close no loop.
 std::vector<Tree> trees_of(const Scene& scene);
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

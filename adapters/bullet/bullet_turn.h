@@ -7,7 +7,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor::bullet {
+namespace rigor::inline adapters::bullet {
 
 inline constexpr double kLargestTurn = std::numbers::pi / 4;  // rad a step
 
@@ -18,4 +18,4 @@ inline Quat turn_of(const Vec3& w, double dt) {
   return {std::cos(kLargestTurn / 2), axis.x(), axis.y(), axis.z()};
 }
 
-}  // namespace rigor::bullet
+}  // namespace rigor::inline adapters::bullet

@@ -26,7 +26,7 @@
 #include "core/engine/option_values.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 constexpr double kSlow = 0.8, kSlowTurn = 1, kTimeToSleep = 2;  // m/s, rad/s, s
@@ -174,4 +174,4 @@ const Integrator kBulletTwin = {
     .make = make_stepper<BulletTwin>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -3,8 +3,8 @@
 
 #include "core/dynamics/integrators/integrator.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 extern const Integrator kBulletTwin;
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

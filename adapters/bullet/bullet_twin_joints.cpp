@@ -2,7 +2,7 @@
 
 #include "adapters/bullet/bullet_matched.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 BulletEnd end_of(const System& system, BodyColumns state, int body) {
@@ -35,4 +35,4 @@ void BulletTwinJoints::push(MutableBodyColumns state, double dt) {
   solver_.push(state, dt);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -11,7 +11,7 @@
 #include "adapters/bullet/bullet_twin_rows.h"
 #include "adapters/common/twin_joint_solver.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class BulletTwinJoints {
  public:
@@ -34,4 +34,4 @@ class BulletTwinJoints {
   std::vector<ConstraintRow> found_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 Vec6 both(const Vec3& linear, const Vec3& angular) {
@@ -208,4 +208,4 @@ std::unique_ptr<BulletJointRows> make_bullet_rows(const Scene& scene, const Join
   return std::visit(make, joint.type);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 #include "core/dynamics/joints/constraint_rows.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Where an end of a joint is; the world at W itself.
 struct BulletEnd {
@@ -27,4 +27,4 @@ class BulletJointRows {
 // Null for a joint that Bullet does not have. A fixed body counts as the world.
 std::unique_ptr<BulletJointRows> make_bullet_rows(const Scene& scene, const Joint& joint);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

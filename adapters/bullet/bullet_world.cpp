@@ -11,7 +11,7 @@
 #include "adapters/bullet/bullet_state.h"
 #include "adapters/common/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using bullet::to_bullet;
@@ -295,4 +295,4 @@ SettingsInForce BulletWorld::settings_in_force() const {
   return in_force;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

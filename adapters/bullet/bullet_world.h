@@ -17,7 +17,7 @@
 #include "core/engine/saved_bytes.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class BulletWorld : public World, public ReportsReactions, public ReportsContacts, public ArchivesState {
  public:
@@ -78,4 +78,4 @@ class BulletWorld : public World, public ReportsReactions, public ReportsContact
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, solver_.get(), &configuration_};
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

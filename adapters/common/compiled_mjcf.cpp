@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::string MjcfSource::place_of(const std::string& what, const std::string& name, int index) const {
   const auto found = places.find(what + "/" + name);
@@ -50,4 +50,4 @@ void CompiledMjcf::take_switches() {
     off.erase(flag);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

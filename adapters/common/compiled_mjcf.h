@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // What an import of an MJCF file needs beside its path.
 struct MjcfSource {
@@ -38,4 +38,4 @@ struct CompiledMjcf {
   void take_switches();
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -10,7 +10,7 @@
 #include "core/engine/engine.h"
 #include "core/scene/left_out.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 struct EngineRow {
   std::unique_ptr<Engine> (*make)();  // null where something that the engine needs at run time is not there
@@ -30,4 +30,4 @@ std::unique_ptr<Engine> make_engine() {
   return std::make_unique<Kind>();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -4,7 +4,7 @@
 
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 const Wrenches& ExternalLoads::over_step(const World& world, double dt) {
   constexpr double kSameLength = 1 + 1e-9;
@@ -18,4 +18,4 @@ const Wrenches& ExternalLoads::over_step(const World& world, double dt) {
   return wrenches_;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

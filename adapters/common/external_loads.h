@@ -5,7 +5,7 @@
 #include "core/dynamics/model/loads/loads.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class ExternalLoads {
  public:
@@ -30,4 +30,4 @@ class ExternalLoads {
   Wrenches wrenches_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -1,6 +1,6 @@
 #include "adapters/common/hanging_joint.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 HangingJoint::HangingJoint(const Scene& scene, int joint, int body) : body_(body) {
   const Joint& of = scene.joints[static_cast<std::size_t>(joint)];
@@ -20,4 +20,4 @@ ReportedReaction HangingJoint::reaction(BodyColumns start, Vec3 force, Vec3 torq
   return {body_, force - effort * unit_force, torque - effort * unit_torque};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 #include "core/dynamics/model/joint_coordinate.h"
 #include "core/engine/capabilities.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class HangingJoint {
  public:
@@ -25,4 +25,4 @@ class HangingJoint {
   Vec3 anchor_ = Vec3::Zero();                 // m, in the body's frame: where a hinge's couple is asked for
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // The runner asks why_unsupported() beforehand; a scene that comes here all the same must not run without its joints.
 inline void refuse_unsupported(const EngineInfo& engine, const Scene& scene) {
@@ -16,4 +16,4 @@ inline void refuse_unsupported(const EngineInfo& engine, const Settings& setting
   if (!reason.empty()) throw InputError(reason);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -5,7 +5,7 @@
 #include "core/dynamics/kernels/kernels.h"
 #include "core/engine/columns.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 struct Motion {
@@ -311,4 +311,4 @@ std::unique_ptr<Stepper> make_reduced_twin(const StepperParts& parts, TurnOverSt
   return std::make_unique<ReducedTwin>(parts, turn);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

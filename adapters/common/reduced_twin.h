@@ -10,7 +10,7 @@
 
 #include "core/dynamics/integrators/integrator.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // An orientation after dt of rotation with w, in the rotating frame: for a free body relative to W, on a ball joint
 // relative to its orientation at t = 0.
@@ -20,4 +20,4 @@ inline Quat exact_turn(const Quat& from, const Vec3& w, double dt) { return from
 
 std::unique_ptr<Stepper> make_reduced_twin(const StepperParts& parts, TurnOverStep turn);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

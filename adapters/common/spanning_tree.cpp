@@ -5,7 +5,7 @@
 
 #include "core/scene/joints/axis_series.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // Bodies that hang together, and the world, as sets that are joined.
@@ -182,4 +182,4 @@ std::vector<double> hanging_speeds(const Scene& scene, const SpanningTree& tree,
       joint.type);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

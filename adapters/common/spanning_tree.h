@@ -6,7 +6,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 struct SpanningTree {
   struct Link {
@@ -35,4 +35,4 @@ SpanningTree spanning_tree(const Scene& scene);
 // about the parent's axis, then the body's. Ball: the angular velocity in the body's frame. Fixed joint: none.
 std::vector<double> hanging_speeds(const Scene& scene, const SpanningTree& tree, int body);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

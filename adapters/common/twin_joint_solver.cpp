@@ -2,7 +2,7 @@
 
 #include "core/base/factors.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 constexpr Eigen::Index kMostDense = 64;  // rows, up to which a dense factorisation takes less than a sparse one's order
@@ -82,4 +82,4 @@ void TwinJointSolver::push(MutableBodyColumns state, double dt) {
   of_J_.clear(), missing_.clear();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

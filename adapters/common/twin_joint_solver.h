@@ -15,7 +15,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/engine/columns.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class TwinJointSolver {
  public:
@@ -45,4 +45,4 @@ class TwinJointSolver {
   std::string warning_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

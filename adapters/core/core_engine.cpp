@@ -6,7 +6,7 @@
 #include "adapters/common/option_values.h"
 #include "core/core_methods.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 CoreEngine::CoreEngine(std::vector<Integrator> twins) : integrators_(integrators()) {
   integrators_.insert(integrators_.end(), twins.begin(), twins.end());
@@ -21,4 +21,4 @@ std::unique_ptr<World> CoreEngine::load(const Scene& scene, const Settings& sett
   return make_core_world(scene, *row, settings);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -7,7 +7,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class CoreEngine : public Engine {
  public:
@@ -22,4 +22,4 @@ class CoreEngine : public Engine {
   EngineInfo info_;  // made once: worlds are loaded by the thousand
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -9,7 +9,7 @@
 #include <dart/dynamics/UniversalJoint.hpp>
 #include <dart/dynamics/WeldJoint.hpp>
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 namespace dyn = ::dart::dynamics;
@@ -142,4 +142,4 @@ Eigen::Isometry3d dart_transform(const Vec3& position, const Quat& orientation) 
 
 DartBodies dart_bodies(const Scene& scene, const SpanningTree& tree) { return SkeletonMaker(scene, tree).make(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

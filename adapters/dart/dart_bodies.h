@@ -11,7 +11,7 @@
 
 #include "adapters/common/spanning_tree.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 struct DartBodies {
   std::vector<::dart::dynamics::SkeletonPtr> skeletons;
@@ -30,4 +30,4 @@ DartBodies dart_bodies(const Scene& scene, const SpanningTree& tree);
 
 Eigen::Isometry3d dart_transform(const Vec3& position, const Quat& orientation);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -5,7 +5,7 @@
 #include "adapters/dart/dart_options.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<std::string> dart_calls(const Settings& settings, const std::string& dt) {
   const bool matched = settings.track == Track::matched;
@@ -32,4 +32,4 @@ std::vector<std::string> dart_calls(const Settings& settings, const std::string&
   return calls;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

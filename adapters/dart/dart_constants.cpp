@@ -4,7 +4,7 @@
 #include <dart/constraint/DynamicJointConstraint.hpp>
 #include <iostream>
 
-namespace rigor::dart_library {
+namespace rigor::inline adapters::dart_library {
 
 using Contact = ::dart::constraint::ContactConstraint;
 using Loop = ::dart::constraint::DynamicJointConstraint;
@@ -40,4 +40,4 @@ std::string Messages::first() const {
   return plain;
 }
 
-}  // namespace rigor::dart_library
+}  // namespace rigor::inline adapters::dart_library

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-namespace rigor::dart_library {
+namespace rigor::inline adapters::dart_library {
 
 struct Constants {
   double contact_erp, contact_speed, contact_cfm;  // share a step, m/s at most, share of the diagonal
@@ -40,4 +40,4 @@ class Messages {
   std::streambuf *cerr_, *cout_;
 };
 
-}  // namespace rigor::dart_library
+}  // namespace rigor::inline adapters::dart_library

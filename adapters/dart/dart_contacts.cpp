@@ -11,7 +11,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 namespace dyn = ::dart::dynamics;
@@ -175,4 +175,4 @@ void DartPlaneEdges::check(BodyColumns bodies) const {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 
 #include "adapters/dart/dart_bodies.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Half the edge of the box whose upper face stands for a plane. m
 inline constexpr double kDartPlaneReach = 500;
@@ -35,4 +35,4 @@ class DartPlaneEdges {
   std::vector<Solid> solids_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -11,7 +11,7 @@
 #include "adapters/dart/dart_world.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // Spheres and boxes are all that DART's own detector of collisions knows; a plane is the face of a wide box.
@@ -59,4 +59,4 @@ EngineRow dart_row() {
   return {make_engine<DartEngine>, [] { return std::vector<Integrator>{kDartTwin}; }, dart_calls};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -5,7 +5,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class DartEngine : public Engine {
  public:
@@ -14,4 +14,4 @@ class DartEngine : public Engine {
   std::string twin(const Settings& settings) const override;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 #include "adapters/dart/dart_matched.h"
 #include "core/engine/option_info.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 inline const OptionInfo kDartErp{
     .name = "erp",
@@ -22,4 +22,4 @@ inline const OptionInfo kDartSoftness{.name = "cfm",
                                       .by_default = kDartCfm,
                                       .as_shipped = 1e-5};
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -5,7 +5,7 @@
 
 #include "adapters/common/reduced_twin.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // DART keeps orientations of free bodies and balls as rotation vectors, and writes them again after each step. For
@@ -53,4 +53,4 @@ const Integrator kDartTwin = {
     .make = [](const StepperParts& parts) { return make_reduced_twin(parts, turned_by_dart); },
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

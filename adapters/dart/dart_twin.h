@@ -4,8 +4,8 @@
 
 #include "core/dynamics/integrators/integrator.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 extern const Integrator kDartTwin;
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -25,7 +25,7 @@
 #include "core/scene/contact_laws.h"
 #include "core/scene/turn_window.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 namespace con = ::dart::constraint;
@@ -381,4 +381,4 @@ std::unique_ptr<World> make_dart_world(const Scene& scene, const Settings& setti
   return std::make_unique<DartWorld>(scene, settings);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

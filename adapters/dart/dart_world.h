@@ -3,10 +3,10 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Throws EngineFailure (unsupported) for cases that features do not cover: a slider or universal joint that closes a
 // loop, a limit that bounces, a coefficient that DART treats as zero.
 std::unique_ptr<World> make_dart_world(const Scene& scene, const Settings& settings);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

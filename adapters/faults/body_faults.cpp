@@ -4,7 +4,7 @@
 #include "adapters/faults/changes.h"
 #include "adapters/faults/faults.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace faulty;
@@ -61,4 +61,4 @@ std::vector<Fault> body_faults() {
   };
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -3,7 +3,7 @@
 #include "core/engine/clock.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // The scene with its bodies where they are at time t, and its clock set to zero there.
@@ -110,4 +110,4 @@ std::unique_ptr<World> BrokenEngine::load(const Scene& scene, const Settings& se
   return std::make_unique<BrokenWorld>(engine_, settings, fault_, scene);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 #include "adapters/faults/fault.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class BrokenEngine : public Engine {
  public:
@@ -22,4 +22,4 @@ class BrokenEngine : public Engine {
   Fault fault_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

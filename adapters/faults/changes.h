@@ -7,7 +7,7 @@
 
 #include "adapters/faults/fault.h"
 
-namespace rigor::faulty {
+namespace rigor::inline adapters::faulty {
 
 template <typename F>
 std::function<void(Scene&)> each_body(F change) {
@@ -102,4 +102,4 @@ inline void equal_masses(Scene& scene) {
   for (Body& body : scene.bodies) body.mass = sum / count;
 }
 
-}  // namespace rigor::faulty
+}  // namespace rigor::inline adapters::faulty

@@ -1,7 +1,7 @@
 // Wrong reports of the contact forces of a correct step, as they are seen in bindings and recorders.
 #include "adapters/faults/faults.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 template <typename F>
@@ -42,4 +42,4 @@ const std::vector<Fault>& contact_report_faults() {
   return table;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

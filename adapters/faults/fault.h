@@ -10,7 +10,7 @@
 #include "core/engine/capabilities.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // A step that is about to be taken. The fault may change the bodies' state, the loads, dt and the number of times that
 // the step is taken.
@@ -39,4 +39,4 @@ struct Fault {
 // Both of them; `first` comes first where they conflict.
 Fault combined(const Fault& first, const Fault& second);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 template <typename F, typename... Arguments>
@@ -38,4 +38,4 @@ Fault combined(const Fault& first, const Fault& second) {
   return both;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

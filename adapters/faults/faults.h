@@ -6,7 +6,7 @@
 
 #include "adapters/faults/fault.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 const std::vector<Fault>& faults();  // grouped by subject
 
@@ -21,4 +21,4 @@ std::vector<Fault> load_faults();
 std::vector<Fault> reading_faults();
 std::vector<Fault> step_faults();
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

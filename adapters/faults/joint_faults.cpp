@@ -2,7 +2,7 @@
 #include "adapters/faults/changes.h"
 #include "adapters/faults/faults.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace faulty;
@@ -48,4 +48,4 @@ std::vector<Fault> joint_faults() {
   };
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

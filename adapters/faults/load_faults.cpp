@@ -7,7 +7,7 @@
 #include "adapters/faults/changes.h"
 #include "adapters/faults/faults.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace faulty;
@@ -142,4 +142,4 @@ std::vector<Fault> load_faults() {
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -2,7 +2,7 @@
 #include "adapters/faults/changes.h"
 #include "adapters/faults/faults.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace faulty;
@@ -53,4 +53,4 @@ std::vector<Fault> reading_faults() {
   };
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -2,7 +2,7 @@
 #include "adapters/faults/changes.h"
 #include "adapters/faults/faults.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace faulty;
@@ -95,4 +95,4 @@ std::vector<Fault> step_faults() {
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

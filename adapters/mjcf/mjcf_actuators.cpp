@@ -8,7 +8,7 @@
 
 #include "adapters/mjcf/mjcf_import.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace mjcf;
@@ -162,4 +162,4 @@ void read_mjcf_actuators(MjcfImport& import) {
   for (int k = 0; k < import.count("actuator_trntype"); ++k) read_actuator(import, k);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

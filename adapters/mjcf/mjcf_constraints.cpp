@@ -6,7 +6,7 @@
 #include "adapters/mjcf/mjcf_import.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace mjcf;
@@ -202,4 +202,4 @@ void read_mjcf_constraints(MjcfImport& import) {
   for (int k = 0; k < import.count("eq_type"); ++k) read_equality(import, k);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 #include "adapters/mjcf/mjcf_import.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace mjcf;
@@ -169,4 +169,4 @@ void read_mjcf_geoms(MjcfImport& import) {
   for (int geom = 0; geom < import.count("geom_type"); ++geom) read_geom(import, geom, all_alike);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

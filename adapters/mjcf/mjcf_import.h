@@ -4,7 +4,7 @@
 #include "adapters/common/compiled_mjcf.h"
 #include "core/scene/link_model.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Words of mjModel's numbers, equal in MuJoCo 2.2 and 3.
 namespace mjcf {
@@ -59,4 +59,4 @@ void read_mjcf_actuators(MjcfImport& import);
 // A model as links and joints. Throws InputError.
 LinkModel links_of_mjcf(const MjcfSource& source, CompiledMjcf compiled);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

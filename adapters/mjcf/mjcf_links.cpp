@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using namespace mjcf;
@@ -201,4 +201,4 @@ LinkModel links_of_mjcf(const MjcfSource& source, CompiledMjcf compiled) {
   return std::move(import.model);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

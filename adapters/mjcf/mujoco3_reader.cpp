@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ CompiledMjcf read_with_mujoco3(const MjcfSource& source) {
   return model;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

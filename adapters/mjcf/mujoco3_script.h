@@ -3,7 +3,7 @@
 // from this file.
 #pragma once
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Files reach MuJoCo by name alone, so that it opens none of the disk. Arrays of bytes cannot be read from the compiled
 // model: what is limited or active is asked of the specification. So are names, for mj_id2name gives what has none the
@@ -79,4 +79,4 @@ function answerTo(mj, request, read, warnings) {
 }
 )js";
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

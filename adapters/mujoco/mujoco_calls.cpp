@@ -7,7 +7,7 @@
 #include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt, const MujocoVersion& version) {
   static const std::map<std::string, std::string> integrators = {{"euler", "mjINT_EULER"},
@@ -54,4 +54,4 @@ std::vector<std::string> mujoco_calls(const Settings& settings, const std::strin
   return calls;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

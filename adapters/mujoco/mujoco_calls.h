@@ -7,8 +7,8 @@
 #include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<std::string> mujoco_calls(const Settings& settings, const std::string& dt, const MujocoVersion& version);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

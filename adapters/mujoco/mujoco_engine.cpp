@@ -12,7 +12,7 @@
 #include "adapters/mujoco/mujoco_world.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // A hull on a box or on another hull rests deeper than the fall of one step. The cause is not known, so these pairs are
@@ -133,4 +133,4 @@ EngineRow mujoco_row() {
           calls_of_mujoco, read_with_mujoco, mjcf_for_others};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

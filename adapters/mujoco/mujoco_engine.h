@@ -5,7 +5,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // What a MuJoCo of either version expresses, and its methods.
 Features mujoco_features();
@@ -18,4 +18,4 @@ class MujocoEngine : public Engine {
   std::string twin(const Settings& settings) const override;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 std::string numbers(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
@@ -342,4 +342,4 @@ std::string mjcf_for_others(const Scene& scene, LeftOut& left_out) {
   return Exporter(scene, left_out).text();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

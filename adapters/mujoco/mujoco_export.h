@@ -6,8 +6,8 @@
 
 #include "core/scene/link_model.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::string mjcf_for_others(const Scene& scene, LeftOut& left_out);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

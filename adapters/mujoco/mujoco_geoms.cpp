@@ -4,7 +4,7 @@
 
 #include "adapters/mujoco/mujoco_mjcf.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 struct GeomOf {
@@ -89,4 +89,4 @@ std::vector<float> mujoco_heights(const Scene& scene) {
   return heights;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 
 #include "adapters/mujoco/mujoco_library.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 template <typename Number>
@@ -92,4 +92,4 @@ CompiledMjcf read_with_mujoco(const MjcfSource& source) {
   return out;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -3,9 +3,9 @@
 
 #include "adapters/common/compiled_mjcf.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // The caller has seen to it that the file names no other that may not be read. Throws InputError with MuJoCo's words.
 CompiledMjcf read_with_mujoco(const MjcfSource& source);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 
 #include "adapters/mujoco/mujoco_mjcf.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<MjcfJoint> mjcf_joints(const Scene& scene, int index, int hanging_body) {
   const Joint& joint = scene.joints[index];
@@ -131,4 +131,4 @@ double mjcf_frictionloss(const Scene& scene, int joint) {
   return most;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor::mujoco_library {
+namespace rigor::inline adapters::mujoco_library {
 namespace {
 
 thread_local std::string warnings;
@@ -91,4 +91,4 @@ Model read_file(const std::string& path) {
   return model;
 }
 
-}  // namespace rigor::mujoco_library
+}  // namespace rigor::inline adapters::mujoco_library

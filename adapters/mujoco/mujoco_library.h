@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace rigor::mujoco_library {
+namespace rigor::inline adapters::mujoco_library {
 
 struct DeleteModel {
   void operator()(mjModel* model) const { mj_deleteModel(model); }
@@ -27,4 +27,4 @@ Model compile(const std::string& mjcf);
 // The same of a file, with its path and line.
 Model read_file(const std::string& path);
 
-}  // namespace rigor::mujoco_library
+}  // namespace rigor::inline adapters::mujoco_library

@@ -11,7 +11,7 @@
 #include "core/engine/option_values.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 std::string name_of(int body) { return fmt::format("b{}", body); }
@@ -358,4 +358,4 @@ std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Sett
   return Writer(scene, tree, settings, version).text();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

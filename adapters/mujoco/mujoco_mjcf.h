@@ -15,7 +15,7 @@
 #include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Bodies that hang on each other: TinyXML-2, which reads for MuJoCo, nests a hundred elements.
 inline constexpr int kDeepestBody = 95;
@@ -81,4 +81,4 @@ MjcfLoop mjcf_loop(const Joint& joint);
 std::string mujoco_mjcf(const Scene& scene, const SpanningTree& tree, const Settings& settings,
                         const MujocoVersion& version);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

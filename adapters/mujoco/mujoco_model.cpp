@@ -8,7 +8,7 @@
 #include "adapters/mujoco/mujoco_options.h"
 #include "core/base/eigen_of.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 void set_inertia(mjModel& model, int body, const MujocoInertia& inertia) {
@@ -72,4 +72,4 @@ std::vector<double> mujoco_velocities(const Scene& scene, const SpanningTree& tr
   return velocities;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -9,7 +9,7 @@
 #include "adapters/mujoco/mujoco_library.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 struct MujocoModel {
   mujoco_library::Model model;
@@ -41,4 +41,4 @@ std::vector<double> mujoco_speeds(const Scene& scene, const SpanningTree& tree, 
 // The velocities of all joints and free bodies at t = 0, for qvel.
 std::vector<double> mujoco_velocities(const Scene& scene, const SpanningTree& tree, const MujocoModel& model);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -3,7 +3,7 @@
 
 #include "core/engine/option_info.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 inline const OptionInfo kMujocoCone{.name = "cone",
                                     .meaning = "the friction cone, or a pyramid in it",
@@ -74,4 +74,4 @@ inline const OptionInfo kMujocoIterations{.name = "iterations",
                                           .by_default = 200.0,
                                           .as_shipped = 100.0};
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -4,7 +4,7 @@
 
 #include "adapters/mujoco/mujoco_mjcf.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::vector<ReportedReaction> MujocoReactions::after_step(const mjModel& model, 
   return reactions;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

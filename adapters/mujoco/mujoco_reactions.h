@@ -10,7 +10,7 @@
 #include "adapters/common/hanging_joint.h"
 #include "adapters/mujoco/mujoco_model.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class MujocoReactions {
  public:
@@ -32,4 +32,4 @@ class MujocoReactions {
   std::vector<Loop> loops_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -9,7 +9,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 void refuse(const Scene& scene, const Motor& motor, const char* what) {
@@ -72,4 +72,4 @@ std::vector<double> mujoco_controls(const std::vector<Motor>& servos, double t) 
   return controls;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -9,7 +9,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 bool has_native_servos(const Scene& scene, const Settings& settings);
 
@@ -25,4 +25,4 @@ std::string mjcf_servo_tendons(const Scene& scene, const std::function<std::stri
 // mjData's ctrl at this time, in the order of the elements.
 std::vector<double> mujoco_controls(const std::vector<Motor>& servos, double t);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

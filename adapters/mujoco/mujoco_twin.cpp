@@ -15,7 +15,7 @@
 
 #include "adapters/common/reduced_twin.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // A body's angular velocity in B from the state's, which is in W, and back.
@@ -193,4 +193,4 @@ const Integrator kMujocoRk4Twin = {.name = "mujoco-rk4-twin",
                                    .twin_of = "mujoco",
                                    .make = make_stepper<Rk4Twin>};
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

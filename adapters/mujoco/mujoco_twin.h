@@ -3,8 +3,8 @@
 
 #include "core/dynamics/integrators/integrator.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 extern const Integrator kMujocoEulerTwin, kMujocoImplicitTwin, kMujocoRk4Twin;
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

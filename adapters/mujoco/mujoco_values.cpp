@@ -10,7 +10,7 @@
 #include "adapters/mujoco/mujoco_options.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 struct Array {
@@ -88,4 +88,4 @@ void mujoco_set(mjModel& model, const std::vector<MujocoValue>& values, double d
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

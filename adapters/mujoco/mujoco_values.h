@@ -8,7 +8,7 @@
 
 struct mjModel_;
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // The place `at` in each row of an array whose rows have `length` numbers.
 struct MujocoValue {
@@ -26,4 +26,4 @@ const std::vector<MujocoValue>& mujoco_stiff_values();
 
 void mujoco_set(mjModel_& model, const std::vector<MujocoValue>& values, double dt = 1);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -10,7 +10,7 @@
 #include "adapters/mujoco/mujoco_values.h"
 #include "core/dynamics/model/loads/loads.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 std::vector<Motor> servos_of(const Scene& scene) {
@@ -245,4 +245,4 @@ SettingsInForce MujocoWorld::settings_in_force() const {
   return in_force;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 #include "adapters/mujoco/mujoco_reactions.h"
 #include "core/engine/saved_bytes.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class MujocoWorld : public World, public ReportsReactions, public ReportsContacts, public ArchivesState {
  public:
@@ -55,4 +55,4 @@ class MujocoWorld : public World, public ReportsReactions, public ReportsContact
   std::string solver_warning_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

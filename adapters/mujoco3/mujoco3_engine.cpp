@@ -16,7 +16,7 @@
 #include "core/base/json.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 PluginStart start_of(const std::string& folder) {
@@ -137,4 +137,4 @@ EngineRow mujoco3_row() {
               "cases/setup does so for a build"};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 
 #include "adapters/plugin/process_engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class Mujoco3Engine : public ProcessEngine {
  public:
@@ -19,4 +19,4 @@ class Mujoco3Engine : public ProcessEngine {
   WorldTerms terms_of(const Scene& scene, const Settings& settings) const override;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ std::string mujoco3_version(const std::string& folder) {
 
 std::string mujoco3_script() { return (folder_of_script() / "mujoco3.mjs").string(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

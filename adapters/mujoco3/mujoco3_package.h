@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // The folder whose node_modules has @mujoco/mujoco: RIGOR_MUJOCO3, or the one beside this program, which a build with
 // that package has. Empty if there is none, or no Node to run it.
@@ -15,4 +15,4 @@ std::string mujoco3_version(const std::string& folder);
 // The script that serves it: in a build beside this program, else in libexec/rigor.
 std::string mujoco3_script();
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

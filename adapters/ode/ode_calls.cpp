@@ -5,7 +5,7 @@
 
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<std::string> ode_calls(const Settings& settings, const std::string& dt) {
   const bool is_matched = settings.track == Track::matched;
@@ -30,4 +30,4 @@ std::vector<std::string> ode_calls(const Settings& settings, const std::string& 
   return calls;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

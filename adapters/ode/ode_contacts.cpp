@@ -5,7 +5,7 @@
 
 #include "adapters/ode/ode_world.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 constexpr int kMaxContacts = 64;       // of one pair; two boxes have at most eight, triangles any number
@@ -125,4 +125,4 @@ std::vector<ReportedContact> OdeWorld::contacts() const {
   return contacts;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -14,7 +14,7 @@
 #include "adapters/ode/ode_world.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // ODE reports all contacts of a hull with a plane or a ball. A hull on a box or on another hull gets one corner at a
@@ -97,4 +97,4 @@ EngineRow ode_row() {
   return {make_engine<OdeEngine>, [] { return std::vector<Integrator>{kOdeTwin}; }, ode_calls};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 template <typename T>
 struct OdePair {
@@ -46,4 +46,4 @@ class OdeJointEnds {
   bool b_is_first_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

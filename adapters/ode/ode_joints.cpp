@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 const OdeJoints::Axis OdeJoints::kHinge = {dJointSetHingeParam, dJointGetHingeParam};
 const OdeJoints::Axis OdeJoints::kSlider = {dJointSetSliderParam, dJointGetSliderParam};
@@ -240,4 +240,4 @@ SettingsInForce OdeJoints::settings_in_force() const {
   return settings;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

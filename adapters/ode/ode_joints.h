@@ -8,7 +8,7 @@
 #include "core/engine/capabilities.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Throws InputError where two motors keep a speed of the same joint at the same time: ODE has one motor a joint.
 void refuse_shared_motors(const Scene& scene);
@@ -68,4 +68,4 @@ class OdeJoints {
   bool has_servos_ = false;    // its own or not
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
-namespace rigor::ode_library {
+namespace rigor::inline adapters::ode_library {
 namespace {
 
 thread_local std::string messages;
@@ -52,4 +52,4 @@ std::string take_messages() { return std::exchange(messages, {}); }
 WithoutMessages::WithoutMessages() { are_messages_dropped = true; }
 WithoutMessages::~WithoutMessages() { are_messages_dropped = false; }
 
-}  // namespace rigor::ode_library
+}  // namespace rigor::inline adapters::ode_library

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rigor::ode_library {
+namespace rigor::inline adapters::ode_library {
 
 // Before any other call to ODE in this thread. Errors that ODE does not survive go to stderr before it aborts.
 void start();
@@ -20,4 +20,4 @@ class WithoutMessages {
   WithoutMessages& operator=(const WithoutMessages&) = delete;
 };
 
-}  // namespace rigor::ode_library
+}  // namespace rigor::inline adapters::ode_library

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // The share of a joint's gap that a step closes. The scheme opens a gap of half the path's curvature times (v dt)² in
 // each step; 1/ERP of it remains and costs energy. At 1/30 s a rod released from the horizontal loses a quarter of its
@@ -36,4 +36,4 @@ inline double matched_softness(const Scene& scene) {
   return heaviest > 0 ? matched_softness_share(scene) / heaviest : 0;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -7,7 +7,7 @@
 #include "adapters/ode/ode_matched.h"
 #include "core/engine/option_info.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 inline const OptionInfo kOdeGyroscopic{
     .name = "gyroscopic", .meaning = "the implicit gyroscopic torque", .choices = {"on", "off"}, .by_default = "on"};
@@ -62,4 +62,4 @@ inline const OptionInfo kOdeTwinCfm{
     .max = 1,
     .by_default = DefaultRule{fmt::format("dt/(heaviest mass) times {}", kMatchedJointSoftness)}};
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

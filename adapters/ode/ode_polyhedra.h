@@ -9,7 +9,7 @@
 #include "core/scene/shapes/hull.h"
 #include "core/scene/shapes/surface.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class OdeHull {
  public:
@@ -60,4 +60,4 @@ struct OdePolyhedra {
   std::vector<std::unique_ptr<OdeTriangles>> surfaces;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 
 #include "adapters/ode/ode_world.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 template <std::size_t N>
@@ -58,4 +58,4 @@ void OdeWorld::archive_order(StateArchive& archive) {
   for (const int place : order) dSpaceAdd(moving_, geoms_.at(static_cast<std::size_t>(place)));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -13,7 +13,7 @@
 #include "adapters/ode/ode_twin_joints.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 class OdeTwin : public Stepper {
@@ -94,4 +94,4 @@ const Integrator kOdeTwin = {
     .make = make_stepper<OdeTwin>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

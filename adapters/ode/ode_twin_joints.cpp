@@ -3,7 +3,7 @@
 #include "adapters/ode/ode_joint_ends.h"
 #include "adapters/ode/ode_matched.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // The rows from `at` on: the points at the two arms coincide.
@@ -236,4 +236,4 @@ void OdeTwinJoints::push(MutableBodyColumns state, double dt) {
   solver_.push(state, dt);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

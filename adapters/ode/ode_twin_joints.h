@@ -10,7 +10,7 @@
 
 #include "adapters/common/twin_joint_solver.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // The place of one end of a joint; the world and fixed bodies are at W itself.
 struct OdeEnd {
@@ -52,4 +52,4 @@ class OdeTwinJoints {
   std::vector<JointWithRows> joints_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -12,7 +12,7 @@
 #include "adapters/ode/ode_options.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // m/s, rad/s, N and N m. No motion has such numbers; soon after, ODE would find one that is not finite and abort the
@@ -324,4 +324,4 @@ SettingsInForce OdeWorld::settings_in_force() const {
   return in_force;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -16,7 +16,7 @@
 #include "core/engine/saved_bytes.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // The direct solver's time grows as the cube of the contacts: a pile of 216 balls takes it over a second a step. The
 // method `auto` leaves scenes of more than so many moving bodies that can touch to the sweeps.
@@ -91,4 +91,4 @@ class OdeWorld : public World, public ReportsReactions, public ReportsContacts, 
   std::optional<OdeJoints> joints_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

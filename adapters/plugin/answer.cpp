@@ -8,7 +8,7 @@
 #include "adapters/plugin/in_quotes.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -179,4 +179,4 @@ void check_time(double time, const Question& asked, double due, double dt) {
                 fmt::format("its time is {:.17g} s; after the steps that it was asked for it is {:.17g} s", time, due));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

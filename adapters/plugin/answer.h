@@ -10,7 +10,7 @@
 #include "core/engine/capabilities.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // The state is no longer finite, by the engine's own word.
 class EngineDiverged : public EngineFailure {
@@ -51,4 +51,4 @@ void check_time(double time, const Question& asked, double due, double dt);
 
 [[noreturn]] void refuse_answer(const Question& asked, const std::string& fault);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

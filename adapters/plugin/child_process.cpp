@@ -23,7 +23,7 @@
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using Stopwatch = std::chrono::steady_clock;
@@ -266,4 +266,4 @@ std::string ChildProcess::last_words() const {
   return words.empty() ? "" : fmt::format("; its last words: {}", in_quotes(words));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <string>
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class ChildProcess {
  public:
@@ -58,4 +58,4 @@ class ChildProcess {
   std::chrono::steady_clock::time_point begin_, asked_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

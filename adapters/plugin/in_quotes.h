@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 inline std::string in_quotes(std::string_view text, std::size_t longest = 200) {
   std::string out = "'";
@@ -17,4 +17,4 @@ inline std::string in_quotes(std::string_view text, std::size_t longest = 200) {
   return out + (text.size() > longest ? fmt::format("...' ({} bytes)", text.size()) : "'");
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -21,7 +21,7 @@
 #include "core/engine/saved_bytes.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 constexpr std::uint64_t bits_of(double number) { return std::bit_cast<std::uint64_t>(number); }
@@ -262,4 +262,4 @@ std::unique_ptr<World> LibraryEngine::load(const Scene& scene, const Settings& s
                                         settings);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -7,7 +7,7 @@
 #include "adapters/plugin/plugin_info.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class LibraryEngine : public Engine {
  public:
@@ -25,4 +25,4 @@ class LibraryEngine : public Engine {
   PluginInfo info_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Bytes of data: RLIMIT_DATA, for address space alone is reserved by the gigabyte in WebAssembly.
 inline constexpr rlim_t kMostMemory = rlim_t{4} << 30;
@@ -19,4 +19,4 @@ inline void limit_memory() {
   if (now.rlim_cur > limit.rlim_cur) setrlimit(RLIMIT_DATA, &limit);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

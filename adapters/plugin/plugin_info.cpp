@@ -12,7 +12,7 @@
 #include "core/base/near_match.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // A table of the info, and the name by which messages call it: "methods[0]".
@@ -249,4 +249,4 @@ std::string settings_json(const PluginInfo& info, const Settings& settings) {
   return json.dump();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 inline constexpr int kProtocolVersion = 1;
 
@@ -29,4 +29,4 @@ Scene loads_left_to_rigor(Scene scene, const PluginInfo& info);
 // "settings" of `load`, as JSON: an option that is a number as one.
 std::string settings_json(const PluginInfo& info, const Settings& settings);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -14,7 +14,7 @@
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // Our own stderr, kept: in a cell's process descriptor 2 is something else.
@@ -75,4 +75,4 @@ std::vector<std::string> plugins_of_environment() {
   return plugins;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

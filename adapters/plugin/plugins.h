@@ -6,7 +6,7 @@
 
 #include "adapters/engines.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // A path that ends in ".so" is a shared library, anything else a command line. `limit`: seconds, see ChildProcess.
 // Throws InputError for a plug-in that does not describe itself, or whose name is taken.
@@ -18,4 +18,4 @@ std::string plugin_of(const std::string& engine);
 // The parts of RIGOR_PLUGINS, which colons separate.
 std::vector<std::string> plugins_of_environment();
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -7,7 +7,7 @@
 #include "adapters/common/option_values.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 ProcessEngine::ProcessEngine(PluginStart start) : start_(std::move(start)) {
   try {
@@ -46,4 +46,4 @@ WorldTerms ProcessEngine::terms_of(const Scene&, const Settings&) const {
 
 void ProcessEngine::rest() const { session_.reset(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 #include "adapters/plugin/process_world.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class ProcessEngine : public Engine {
  public:
@@ -35,4 +35,4 @@ class ProcessEngine : public Engine {
   mutable std::shared_ptr<ProcessSession> session_;  // none until it is needed
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

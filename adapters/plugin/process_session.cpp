@@ -10,7 +10,7 @@
 #include "core/base/json.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "columns of doubles are read as they come");
@@ -175,4 +175,4 @@ void ProcessSession::unload(int world) {
   ask(fmt::format(R"({{"call":"unload","world":{}}})", world), "unload", kShortAnswer, world);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

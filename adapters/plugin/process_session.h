@@ -10,7 +10,7 @@
 #include "adapters/plugin/plugin_info.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // How a plug-in is started.
 struct PluginStart {
@@ -64,4 +64,4 @@ class ProcessSession {
   std::vector<double> raw_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -9,7 +9,7 @@
 
 #include "adapters/plugin/answer.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // Limits of one request: steps, and bytes of its samples, each number of some 20 characters.
@@ -167,4 +167,4 @@ void ProcessWorld::read_now() const {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

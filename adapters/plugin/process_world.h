@@ -8,7 +8,7 @@
 #include "adapters/plugin/rigor_loads.h"
 #include "core/engine/saved_bytes.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // What one world of an engine gets and reports, beyond the engine's description.
 struct WorldTerms {
@@ -85,4 +85,4 @@ class ProcessWorld : public World,
   mutable std::string lost_why_;  // not empty: the state is no longer finite
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

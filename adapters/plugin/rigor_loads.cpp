@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 bool RigorLoads::over_step(const World& world, double dt) {
   rows_.clear();
@@ -14,4 +14,4 @@ bool RigorLoads::over_step(const World& world, double dt) {
   return std::all_of(rows_.begin(), rows_.end(), [](double x) { return std::isfinite(x); });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

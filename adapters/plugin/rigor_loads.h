@@ -7,7 +7,7 @@
 #include "adapters/common/external_loads.h"
 #include "adapters/plugin/plugin_info.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class RigorLoads {
  public:
@@ -24,4 +24,4 @@ class RigorLoads {
   std::vector<double> rows_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

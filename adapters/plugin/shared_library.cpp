@@ -24,7 +24,7 @@
 #include "core/base/error.h"
 #include "core/base/sanitizers.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using Stopwatch = std::chrono::steady_clock;
@@ -133,4 +133,4 @@ std::string info_of_library(const std::string& path, double limit) {
   return answer.substr(1);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

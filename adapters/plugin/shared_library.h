@@ -5,7 +5,7 @@
 
 #include "adapters/plugin/rigor_engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // Loads it permanently into this process. Throws InputError with a sentence about the error. A library may do anything,
 // so call this in a process that may be lost.
@@ -16,4 +16,4 @@ std::string info_of_library(const std::string& path, double limit);
 
 inline constexpr std::size_t kRoomForText = 1 << 16;  // bytes, of each call
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

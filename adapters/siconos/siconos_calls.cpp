@@ -6,7 +6,7 @@
 #include "adapters/siconos/siconos_options.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<std::string> siconos_calls(const Settings& settings, const std::string& dt) {
   const bool matched = settings.track == Track::matched;
@@ -25,4 +25,4 @@ std::vector<std::string> siconos_calls(const Settings& settings, const std::stri
   return calls;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -9,7 +9,7 @@
 #include "adapters/siconos/siconos_info.h"
 #include "adapters/siconos/siconos_twin.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 std::string path_of_process() {
@@ -42,4 +42,4 @@ EngineRow siconos_row() {
   return {make_engine<SiconosEngine>, [] { return std::vector<Integrator>{kSiconosTwin}; }, siconos_calls};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

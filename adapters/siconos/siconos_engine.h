@@ -4,7 +4,7 @@
 
 #include "adapters/plugin/process_engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class SiconosEngine : public ProcessEngine {
  public:
@@ -12,4 +12,4 @@ class SiconosEngine : public ProcessEngine {
   std::string twin(const Settings& settings) const override;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 
 #include "adapters/siconos/siconos_matched.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 inline std::string siconos_info() {
   return fmt::format(R"({{"ok": true, "rigor": 1, "name": "siconos", "version": "4.4.0",
@@ -33,4 +33,4 @@ inline std::string siconos_info() {
                      kSiconosTheta, kSiconosTolerance, kSiconosIterations);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -4,7 +4,7 @@
 #include "adapters/siconos/siconos_matched.h"
 #include "core/engine/option_info.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 inline const OptionInfo kSiconosThetaOption{
     .name = "theta", .meaning = "weight of the step's end", .min = 0.5, .max = 1, .by_default = kSiconosTheta};
@@ -22,4 +22,4 @@ inline const OptionInfo kSiconosIterationsOption{.name = "iterations",
                                                  .by_default = double{kSiconosIterations},
                                                  .as_shipped = DefaultRule{"as shipped"}};
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

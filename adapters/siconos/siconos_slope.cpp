@@ -1,6 +1,6 @@
 #include "adapters/siconos/siconos_slope.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 void load_slopes(const Loads& loads, BodyColumns state, const Wrenches& wrenches, double t, double reach,
                  std::vector<Mat6>& out) {
@@ -16,4 +16,4 @@ void load_slopes(const Loads& loads, BodyColumns state, const Wrenches& wrenches
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,11 +6,11 @@
 
 #include "core/dynamics/model/loads/load_jacobian.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 // For each body: derivatives of (force in W, torque in B) by the velocities (v in W, w in B) at the end of a step to
 // `t` [s]. The velocities move a body by `reach` [s] times themselves. `wrenches`: the loads there.
 void load_slopes(const Loads& loads, BodyColumns state, const Wrenches& wrenches, double t, double reach,
                  std::vector<Mat6>& out);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

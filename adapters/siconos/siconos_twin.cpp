@@ -14,7 +14,7 @@
 #include "adapters/siconos/siconos_options.h"
 #include "adapters/siconos/siconos_slope.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // The inverse of the map from w in B to the state's; for a quaternion longer than 1 it is no rotation.
@@ -132,4 +132,4 @@ const Integrator kSiconosTwin = {
     .make = make_stepper<SiconosTwin>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

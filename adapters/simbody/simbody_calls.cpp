@@ -7,7 +7,7 @@
 #include "adapters/simbody/simbody_world.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<std::string> simbody_calls(const Settings& settings, const std::string& dt) {
   static const std::map<std::string, std::string> kinds = {{"cpodes", "CPodes"},
@@ -35,4 +35,4 @@ std::vector<std::string> simbody_calls(const Settings& settings, const std::stri
   return calls;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -5,7 +5,7 @@
 
 #include "adapters/simbody/simbody_mobilizers.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 Quat quaternion_at(const Eigen::VectorXd& q, Eigen::Index first) {
@@ -256,4 +256,4 @@ void SimbodyCoordinates::normalise(Eigen::VectorXd& q) const {
     if (node.has_quaternion()) q.segment<4>(node.q).normalize();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -13,7 +13,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class SimbodyCoordinates {
  public:
@@ -88,4 +88,4 @@ class SimbodyCoordinates {
   Eigen::Index q_size_ = 0, u_size_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -10,7 +10,7 @@
 #include "adapters/simbody/simbody_world.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 MethodInfo runge_kutta(const std::string& name, const std::string& summary, int order) {
@@ -72,4 +72,4 @@ std::string SimbodyEngine::twin(const Settings& settings) const {
 
 EngineRow simbody_row() { return {make_engine<SimbodyEngine>, simbody_twins, simbody_calls}; }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

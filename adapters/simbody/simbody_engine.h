@@ -5,7 +5,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class SimbodyEngine : public Engine {
  public:
@@ -14,4 +14,4 @@ class SimbodyEngine : public Engine {
   std::string twin(const Settings& settings) const override;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

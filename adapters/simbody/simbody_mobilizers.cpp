@@ -2,7 +2,7 @@
 
 #include "adapters/common/spanning_tree.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 Mobilizer mobilizer_of(const Scene& scene, int body, const SpanningTree::Link& link) {
@@ -63,4 +63,4 @@ std::vector<Mobilizer> mobilizers_of(const Scene& scene) {
   return mobilizers;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 enum class MobilizerKind { free, ball, cylinder, pin, slider, universal, weld };
 
@@ -26,4 +26,4 @@ std::vector<Mobilizer> mobilizers_of(const Scene& scene);
 // Unit vectors at right angles, of which the column `which` has this direction.
 Mat3 axes_with(int which, const Vec3& direction);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

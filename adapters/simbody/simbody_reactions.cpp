@@ -2,7 +2,7 @@
 
 #include "adapters/common/spanning_tree.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 // The point that a joint's couple is about. Without an anchor it is the body's own centre.
@@ -81,4 +81,4 @@ std::vector<ReportedReaction> SimbodyReactions::reported(const Instant& mean, Bo
   return reactions;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -7,7 +7,7 @@
 #include "adapters/common/hanging_joint.h"
 #include "adapters/simbody/simbody_system.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class SimbodyReactions {
  public:
@@ -35,4 +35,4 @@ class SimbodyReactions {
   std::vector<std::pair<int, HangingJoint>> hanging_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

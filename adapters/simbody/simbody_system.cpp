@@ -9,7 +9,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/scene/validate.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 namespace {
 
@@ -267,4 +267,4 @@ void SimbodySystem::read(const SimTK::State& state, MutableBodyColumns out) cons
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -15,7 +15,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 class SimbodySystem {
  public:
@@ -74,4 +74,4 @@ class SimbodySystem {
   friend class StageLoads;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -13,7 +13,7 @@
 #include "adapters/simbody/simbody_coordinates.h"
 #include "core/engine/body_column.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -170,4 +170,4 @@ std::vector<Integrator> simbody_twins() {
           row("verlet", 2, make_stepper<VerletTwin>)};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -5,8 +5,8 @@
 
 #include "core/dynamics/integrators/integrator.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::vector<Integrator> simbody_twins();
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -15,7 +15,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 namespace {
 
 using IntegratorPointer = std::unique_ptr<SimTK::Integrator>;
@@ -337,4 +337,4 @@ std::unique_ptr<World> simbody_world(const Scene& scene, const Settings& setting
   return std::make_unique<SimbodyWorld>(scene, settings);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -8,7 +8,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline adapters {
 
 std::string simbody_version();
 
@@ -25,4 +25,4 @@ OptionInfo simbody_accuracy(const std::string& method);
 
 std::unique_ptr<World> simbody_world(const Scene& scene, const Settings& settings);
 
-}  // namespace rigor
+}  // namespace rigor::inline adapters

@@ -6,7 +6,7 @@
 
 #include "cases/results/observed_order.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 const MetricValue* metric_in(const Cell& cell, const std::string& name) {
@@ -52,4 +52,4 @@ bool is_reference_method(const Results& results, std::size_t run) {
   return false;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

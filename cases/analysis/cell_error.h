@@ -6,7 +6,7 @@
 #include "cases/results/main_error.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Whether the main error is an error against a truth, in m or rad.
 bool has_main_error_of_truth(const CaseResult& result);
@@ -28,4 +28,4 @@ bool is_wrong_as_a_whole(const Cell& cell);
 // reference and no choice of step, so reports show it apart.
 bool is_reference_method(const Results& results, std::size_t run);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -9,7 +9,7 @@
 
 #include "cases/analysis/change_point.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr double kSameBits = 1.001;    // a history keeps four digits of an error
@@ -109,4 +109,4 @@ std::vector<CellHistory> cell_histories(const std::vector<HistoryEntry>& history
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

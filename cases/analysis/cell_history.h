@@ -6,7 +6,7 @@
 
 #include "cases/results/history.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct CellSeries {
   std::vector<double> values;        // one per entry of the history; NaN if the entry has none
@@ -35,4 +35,4 @@ LevelChange level_change(const CellSeries& series, std::size_t which);
 // Ignores NaN; NaN if nothing is left.
 double median_of(std::vector<double> values);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

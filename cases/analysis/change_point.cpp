@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // Each statistic exceeds its threshold in at most 0.5 % of series of noise. Simulated for 6 to 200 values with an
@@ -109,4 +109,4 @@ std::vector<std::size_t> change_points(const std::vector<double>& values, double
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

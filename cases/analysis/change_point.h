@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // The shortest level. A change therefore needs six values, three before it and three after it.
 inline constexpr std::size_t kShortestLevel = 3;
@@ -24,4 +24,4 @@ inline constexpr std::size_t kShortestLevel = 3;
 // `least_noise`: a smaller noise is treated as this one, in the unit of the values.
 std::vector<std::size_t> change_points(const std::vector<double>& values, double least_noise = 0);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -6,7 +6,7 @@
 
 #include "cases/analysis/metric_over_steps.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 std::string how_it_corrects(const Cell& cell) {
@@ -136,4 +136,4 @@ std::vector<Diagnosis> contact_diagnoses(const CaseResult& result) {
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -1,11 +1,11 @@
 // Finds errors of contacts. Of impacts: restitution that does not converge, and overlap returned as speed. Of friction:
-// a dependence on the direction, and bodies that creep. Of forces: growth as the step shrinks, a motion that they do not
-// explain, and bodies that hover.
+// a dependence on the direction, and bodies that creep. Of forces: growth as the step shrinks, a motion that they do
+// not explain, and bodies that hover.
 #pragma once
 
 #include "cases/analysis/diagnosis.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Bounces that do not improve at finer steps. The value is the largest error at a finer step.
 inline constexpr const char* kUnconverged = "restitution";
@@ -26,4 +26,4 @@ inline constexpr const char* kForcesMissing = "contact-balance";
 // One run and one topic in each, sorted by run.
 std::vector<Diagnosis> contact_diagnoses(const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

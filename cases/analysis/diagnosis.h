@@ -7,7 +7,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct Diagnosis {
   std::string topic;              // a row of the table in the analysis that found it
@@ -20,4 +20,4 @@ struct Diagnosis {
   double beside = 0;                                   // the number that `value` is compared with, for some topics
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

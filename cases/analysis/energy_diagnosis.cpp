@@ -4,7 +4,7 @@
 
 #include "cases/metrics/measures/energy_series.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr double kNotableDrift = 0.01;  // of the largest kinetic energy
@@ -56,4 +56,4 @@ double signed_value(const std::map<std::string, MetricValue>& metrics, const std
   return std::copysign(metric.value, metric.worst.found - metric.worst.expected);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

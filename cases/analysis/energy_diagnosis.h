@@ -3,7 +3,7 @@
 
 #include "cases/analysis/diagnosis.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // The energy falls or rises. The value is the signed change as a share of the largest kinetic energy. `beside` is the
 // change that the scheme alone makes, by a twin, or NaN. The cause is kGyroscopicTerm if the scheme without it keeps
@@ -20,4 +20,4 @@ std::vector<Diagnosis> energy_diagnoses(const CaseResult& result, const StepSize
 // A metric with the sign of the found value less the expected one; NaN if the metric does not apply.
 double signed_value(const std::map<std::string, MetricValue>& metrics, const std::string& name);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

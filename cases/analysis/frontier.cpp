@@ -7,7 +7,7 @@
 
 #include "cases/analysis/cell_error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -188,4 +188,4 @@ std::optional<Choice> cheapest_within(const Results& results, const std::vector<
   return best;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

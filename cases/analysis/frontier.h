@@ -8,7 +8,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // What a run did at one step size, over the cases of a scope.
 struct FrontierPoint {
@@ -58,4 +58,4 @@ enum class Candidates { engines, core_methods, references };
 std::optional<Choice> cheapest_within(const Results& results, const std::vector<Frontier>& frontiers, double tolerance,
                                       Candidates candidates);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -8,7 +8,7 @@
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/measures/joints/joint_geometry.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr double kSmall = 1e-4;  // of a joint's reach: smaller gaps get no sentence
@@ -163,4 +163,4 @@ std::vector<Diagnosis> joint_diagnoses(const Results& results, const CaseResult&
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

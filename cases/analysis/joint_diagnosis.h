@@ -3,7 +3,7 @@
 
 #include "cases/analysis/diagnosis.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Joints come apart. The value is the gap [m] at the coarsest step, and `beside` the gap within the first second. The
 // cause is the share of a gap that the engine corrects in one step.
@@ -28,4 +28,4 @@ int joints_in_a_row(const Scene& scene);
 // The largest mass ratio of two bodies that share a joint; 1 if all joints lead to bodies that stand still.
 double mass_ratio(const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

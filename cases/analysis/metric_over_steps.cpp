@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 MetricOverSteps metric_over_steps(const CaseResult& result, std::size_t run, const std::string& metric) {
   MetricOverSteps series;
@@ -47,4 +47,4 @@ Diagnosis diagnosis_of(const char* topic, const CaseResult& result, const Metric
   return diagnosis;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -3,7 +3,7 @@
 
 #include "cases/analysis/diagnosis.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // From the coarsest step to the finest, without cells that have no value or blew up.
 struct MetricOverSteps {
@@ -26,4 +26,4 @@ std::string in_its_words(const Cell& cell, const std::string& setting);
 Diagnosis diagnosis_of(const char* topic, const CaseResult& result, const MetricOverSteps& series, std::size_t n,
                        double value, const std::string& cause);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

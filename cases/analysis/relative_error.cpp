@@ -7,7 +7,7 @@
 
 #include "cases/analysis/cell_error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // The larger of the two in the middle of an even count.
@@ -68,4 +68,4 @@ std::vector<StepSize> distinct_steps(const Results& results) {
   return steps;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

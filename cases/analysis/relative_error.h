@@ -5,7 +5,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct RelativeError {
   std::size_t run = 0;
@@ -22,4 +22,4 @@ std::vector<RelativeError> relative_errors(const Results& results, const StepSiz
 // The distinct steps of all cases, from the coarsest to the finest.
 std::vector<StepSize> distinct_steps(const Results& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -6,7 +6,7 @@
 
 #include "cases/analysis/cell_error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 struct ErrorAtStep {
@@ -89,4 +89,4 @@ std::vector<StepOverCases> steps_over_cases(const Results& results, double toler
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -7,7 +7,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // The tolerances [m or rad] that reports offer.
 inline constexpr double kTolerances[] = {1e-4, 1e-3, 1e-2, 1e-1};
@@ -41,4 +41,4 @@ struct StepOverCases {
 // In the order of the runs. A run that has an error in fewer than half of these cases is left out.
 std::vector<StepOverCases> steps_over_cases(const Results& results, double tolerance);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -6,7 +6,7 @@
 
 #include "cases/analysis/cell_error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // log error at log cost, on the straight line through two points.
@@ -98,4 +98,4 @@ std::optional<BestOfCore> best_of_core(const Results& results, const CaseResult&
   return best;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -8,7 +8,7 @@
 
 #include "cases/results/observed_order.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // interpolated: the cost lies between two of the run's own cells.
 // extrapolated: the cost is below the cheapest cell. The line through the first two cells is used up to a step four
@@ -51,4 +51,4 @@ struct BestOfCore {
 std::optional<BestOfCore> best_of_core(const Results& results, const CaseResult& result, std::size_t baseline,
                                        const std::string& metric);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

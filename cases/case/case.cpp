@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 std::optional<double> parse_number(std::string_view text) {
@@ -70,4 +70,4 @@ void check_step_size(const StepSize& dt, double duration, const std::string& wha
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

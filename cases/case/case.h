@@ -10,7 +10,7 @@
 #include "core/scene/left_out.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 struct StepSize {
   double seconds;
@@ -87,4 +87,4 @@ StepSize parse_step_size(const std::string& text, const std::string& what);
 // Throws InputError, its message begun by `what`, for a step longer than the run or one that a run has too many of.
 void check_step_size(const StepSize& dt, double duration, const std::string& what);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -14,7 +14,7 @@
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 // Each start is another run, of joints that then do not fit.
@@ -113,4 +113,4 @@ Case read_case_text(const std::string& text, const std::string& path, const std:
   return out;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

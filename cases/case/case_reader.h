@@ -7,7 +7,7 @@
 #include "cases/case/case.h"
 #include "cases/case/vocabulary.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // Throws InputError, "file:line:column: key: what was found, what is allowed (near match)", for anything the format
 // does not allow, and for a metric, truth, engine or step size that is not among `words`.
@@ -18,4 +18,4 @@ enum class Gates { read, left_out };
 Case read_case_text(const std::string& text, const std::string& path, const std::string& id, const Vocabulary& words,
                     Gates gates = Gates::read);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

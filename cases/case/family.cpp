@@ -7,7 +7,7 @@
 #include "cases/case/selection.h"
 #include "core/scene/features/features.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ void add_family_gates(const Family& family, const Vocabulary& words, Case& defin
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -7,7 +7,7 @@
 
 #include "cases/case/gate_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 inline constexpr const char* kFamilyFile = "family.toml";  // in a folder of cases; no case itself
 
@@ -22,4 +22,4 @@ Family read_family(const std::string& path, const Vocabulary& words);
 // the same metric for a run, that gate replaces the family's.
 void add_family_gates(const Family& family, const Vocabulary& words, Case& definition);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

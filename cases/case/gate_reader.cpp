@@ -12,7 +12,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/features/feature.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 // A tenth for the next term of the error, and for steps that are not yet short.
@@ -241,4 +241,4 @@ std::vector<Gate> gates_of(const GateTable& table, const Case& of) {
   return gates;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -8,7 +8,7 @@
 #include "cases/case/vocabulary.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // One of the steps a gate names, or those to one side of it: "1/30", "<=1/240".
 struct StepTerm {
@@ -44,4 +44,4 @@ std::vector<Gate> gates_of(const GateTable& table, const Case& of);
 // The steps of a run that the terms select; all if there are no terms.
 std::vector<StepSize> selected_steps(const std::vector<StepTerm>& terms, const std::vector<StepSize>& of_run);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 std::string home_folder(const std::string& inside, const std::string& as_built) {
   namespace fs = std::filesystem;
@@ -23,4 +23,4 @@ std::string home_folder(const std::string& inside, const std::string& as_built) 
   return !error && fs::is_directory(installed, error) ? installed.string() : as_built;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

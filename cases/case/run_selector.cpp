@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 const std::vector<std::string> kWords = {"@matched",  "@stock",     "adaptive", "order>=1",
@@ -179,4 +179,4 @@ std::vector<std::string> selected_runs(const std::string& selector, const std::v
   return names;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

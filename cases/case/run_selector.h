@@ -7,7 +7,7 @@
 
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // Every method of the in-house core but the twins of other engines, and every other engine on both tracks.
 std::vector<RunName> default_runs(const std::vector<EngineInfo>& engines);
@@ -25,4 +25,4 @@ bool is_run_selector(const std::string& text);
 // Throws InputError for an unknown word, and for a selector that matches no run.
 std::vector<std::string> selected_runs(const std::string& selector, const std::vector<EngineInfo>& engines);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -6,7 +6,7 @@
 #include "cases/case/case.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 inline StepSize read_seconds(const TomlValue& value) {
   if (value.is_text()) return parse_step_size(value.text(), value.label());
@@ -14,4 +14,4 @@ inline StepSize read_seconds(const TomlValue& value) {
   return {seconds, fmt::format("{}", seconds)};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline cases {
 
 bool is_same_run(const RunName& a, const RunName& b) {
   return a.engine == b.engine && a.settings.method == b.settings.method && a.settings.options == b.settings.options &&
@@ -40,4 +40,4 @@ bool is_judged(const Case& definition, const RunName& run, const StepSize& dt, c
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -8,7 +8,7 @@
 #include "cases/case/case.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // The same engine, method, options and track, however written.
 bool is_same_run(const RunName& a, const RunName& b);
@@ -33,4 +33,4 @@ std::vector<std::string> runs_named_by(const Gate& gate);
 // Whether a gate of the case needs this cell.
 bool is_judged(const Case& definition, const RunName& run, const StepSize& dt, const std::vector<EngineInfo>& engines);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

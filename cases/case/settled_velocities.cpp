@@ -6,7 +6,7 @@
 #include "core/dynamics/joints/joints.h"
 #include "core/scene/joint_rates.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 void settle_velocities(Scene& scene) {
   const auto breaks = [&](const auto& row) { return !why_rates_break(scene, row).empty(); };
@@ -28,4 +28,4 @@ void settle_velocities(Scene& scene) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 namespace fs = std::filesystem;
@@ -237,4 +237,4 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
 
 std::string default_suite_dir() { return home_folder("suite", RIGOR_SUITE_DIR); }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

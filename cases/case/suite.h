@@ -8,7 +8,7 @@
 #include "cases/case/vocabulary.h"
 #include "cases/import/import_options.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // The ids of all cases below `suite_dir`, sorted: "springs/fixed-spring".
 std::vector<std::string> suite_ids(const std::string& suite_dir);
@@ -21,4 +21,4 @@ std::vector<Case> select_cases(const std::vector<std::string>& words, const std:
 
 std::string default_suite_dir();
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -9,7 +9,7 @@
 #include "core/engine/run_name.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 struct Vocabulary {
   std::vector<std::string> metrics;        // of one run
@@ -21,4 +21,4 @@ struct Vocabulary {
       is_held_to_itself;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -9,7 +9,7 @@
 
 extern char** environ;
 
-namespace rigor {
+namespace rigor::inline cli {
 
 std::string why_not_shown(const std::string& file) {
   std::string program = "xdg-open", argument = file;
@@ -23,4 +23,4 @@ std::string why_not_shown(const std::string& file) {
   return "xdg-open found no browser";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline cli {
 
 // Shows a file in the browser, by xdg-open. Returns why it did not open; empty if it did.
 std::string why_not_shown(const std::string& file);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -9,7 +9,7 @@
 #include "cases/import/import.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 // What is lost or was assumed, and how much is without effect.
@@ -60,4 +60,4 @@ std::vector<Case> overridden_cases(const CaseWords& cases, const Invocation& inv
   return suited;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

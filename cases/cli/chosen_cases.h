@@ -7,7 +7,7 @@
 #include "cases/cli/commands.h"
 #include "cases/runner/grid.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 std::vector<Case> chosen_cases(const CaseWords& cases, const Invocation& invocation, const Vocabulary& words);
 
@@ -19,4 +19,4 @@ void say_if_it_falls(const std::string& file, const Scene& scene);
 std::vector<Case> overridden_cases(const CaseWords& cases, const Invocation& invocation, const Overrides& overrides,
                                    const Vocabulary& words);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

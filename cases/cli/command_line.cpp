@@ -14,7 +14,7 @@
 #include "core/base/names_of.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 // An option without a value would take the next option as its value. A variable that is not set leaves an empty value.
@@ -188,4 +188,4 @@ CommandLine parse_command_line(int argc, const char* const* argv, int jobs) {
   return line;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

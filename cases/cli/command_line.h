@@ -6,7 +6,7 @@
 
 #include "cases/cli/commands.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 struct CommandLine {
   Invocation invocation;
@@ -21,4 +21,4 @@ struct CommandLine {
 // Throws InputError with the nearest match of an unknown word. `jobs` is the default of --jobs; 0 means one a core.
 CommandLine parse_command_line(int argc, const char* const* argv, int jobs = 0);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline cli {
 
 // One declaration and one row a command; each is defined in the file of its name.
 CommandRow baseline_row();
@@ -73,4 +73,4 @@ const std::vector<CommandRow>& commands() {
   return table;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

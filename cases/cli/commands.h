@@ -11,7 +11,11 @@
 #include "cases/cli/shared_options.h"
 #include "cases/runner/executor.h"
 
-namespace rigor {
+namespace rigor::inline runner {
+struct Part;
+}
+
+namespace rigor::inline cli {
 
 enum ExitCode { kGood = 0, kGateFailed = 1, kBadInput = 2, kBroken = 3 };
 
@@ -25,7 +29,6 @@ struct Invocation {
 };
 
 class SharedCommand;
-struct Part;
 
 // A command with its own options. Each command line makes a new one.
 class Command {
@@ -98,4 +101,4 @@ MistakeReport diagnosed(const EngineTable& engines, const RunName& run, std::vec
 // Returns the one case that the words of a command name. Throws InputError.
 Case the_case(const CaseWords& cases, const Invocation& invocation, const EngineTable& engines);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

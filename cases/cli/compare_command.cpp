@@ -13,7 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 void check_engine(const std::string& name) {
@@ -101,4 +101,4 @@ CommandRow baseline_row() {
           make_command<BaselineCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -14,7 +14,7 @@
 #include "core/base/names_of.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 std::vector<std::string> option_names(const CommandRow& row) {
@@ -174,4 +174,4 @@ CommandRow completion_row() {
           names_of(kCompletions)};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

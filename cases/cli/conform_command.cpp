@@ -18,7 +18,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 const char* word_of(CheckResult::Answer answer) {
@@ -173,4 +173,4 @@ CommandRow conform_row() {
           make_command<ConformCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 MistakeReport diagnosed(const EngineTable& engines, const RunName& run, std::vector<ProbeScene> probes, int jobs,
                         double limit) {
@@ -70,4 +70,4 @@ CommandRow diagnose_row() {
           make_command<DiagnoseCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

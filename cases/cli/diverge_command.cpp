@@ -17,7 +17,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 class DivergeCommand : public Command {
@@ -172,4 +172,4 @@ CommandRow diverge_row() {
           make_command<DivergeCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/names_of.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 namespace {
 
@@ -45,4 +45,4 @@ CommandRow export_row() {
           make_command<ExportCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -23,7 +23,7 @@
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/writing/value_writer.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 struct FitRequest {
@@ -216,4 +216,4 @@ CommandRow fit_row() {
           make_command<FitCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -26,7 +26,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 // A case without a gate must not look like one that passed.
@@ -307,4 +307,4 @@ int answer(const GridRun& run, bool is_whole) {
   return ending;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

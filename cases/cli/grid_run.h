@@ -13,7 +13,7 @@
 #include "cases/runner/output_folder.h"
 #include "cases/runner/shards/part.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 // The options of run and gate.
 struct GridRequest {
@@ -82,4 +82,4 @@ int ending_of(const Results& grid, bool is_whole);
 // Prints what `run` or `gate` prints and returns its exit code. `is_whole`: all outputs were written.
 int answer(const GridRun& run, bool is_whole);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

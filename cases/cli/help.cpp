@@ -6,7 +6,7 @@
 
 #include "cases/report/layout.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
@@ -68,4 +68,4 @@ std::string first_steps() {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

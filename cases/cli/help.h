@@ -5,7 +5,7 @@
 
 #include "cases/cli/commands.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 std::string help_text();
 std::string help_text(const CommandRow& row);
@@ -13,4 +13,4 @@ std::string help_text(const CommandRow& row);
 // The answer to a call without a command: commands to try first.
 std::string first_steps();
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ CommandRow history_row() {
           kActions};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -8,7 +8,7 @@
 #include "cases/import/import.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 namespace {
 
@@ -46,4 +46,4 @@ CommandRow import_row() {
           make_command<ImportCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -16,7 +16,7 @@
 #include "core/base/names_of.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
@@ -159,4 +159,4 @@ CommandRow list_row() {
           names_of(kKinds)};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

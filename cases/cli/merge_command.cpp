@@ -12,7 +12,7 @@
 #include "cases/runner/shards/part.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,4 +84,4 @@ CommandRow merge_row() {
           make_command<MergeCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

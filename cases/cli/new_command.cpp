@@ -11,7 +11,7 @@
 #include "cases/report/wording/printed_command.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 constexpr const char* kCase =
@@ -106,4 +106,4 @@ CommandRow new_row() {
           make_command<NewCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -8,7 +8,7 @@
 #include "cases/cli/output.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 class OpenCommand : public Command {
@@ -43,4 +43,4 @@ CommandRow open_row() {
           make_command<OpenCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 void Options::add_flag(const std::string& name, const std::string& meaning, bool& value) {
   rows_.push_back({{name, "", meaning}, Repeats::no, [&value](const std::string&) { value = true; }});
@@ -49,4 +49,4 @@ std::string either_of(const std::vector<std::string>& names) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

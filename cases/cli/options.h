@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline cli {
 
 struct OptionFact {
   std::string name;  // "--dt"
@@ -55,4 +55,4 @@ int parse_count(const std::string& text, const std::string& option, int most = 1
 // "a, b or c".
 std::string either_of(const std::vector<std::string>& names);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

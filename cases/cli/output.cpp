@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 // The length in bytes of the UTF-8 character at `at`; 0 if none begins there.
@@ -95,4 +95,4 @@ void say(const std::string& line) {
   std::fwrite(shown.data(), 1, shown.size(), stderr);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

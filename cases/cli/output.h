@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline cli {
 
 // Opens /dev/null on descriptors 0 to 2 that are closed. Otherwise the next file or pipe would become a standard
 // stream. Throws std::runtime_error if that fails.
@@ -25,4 +25,4 @@ void write_file(const std::string& option, const std::string& file, const std::s
 // Prints a line on stderr that begins with "rigor: ". Never throws.
 void say(const std::string& line);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -20,7 +20,7 @@
 #define RIGOR_PLAY_PAGE "build/release/play/index.html"
 #endif
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ CommandRow play_row() {
           make_command<PlayCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

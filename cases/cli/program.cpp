@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/json_words.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 int answer(int argc, const char* const* argv, const Executor* executor) {
@@ -60,4 +60,4 @@ std::string interruption_text(int argc, const char* const* argv) {
                     : "interrupted; no output was changed";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

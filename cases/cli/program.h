@@ -5,7 +5,7 @@
 
 #include "cases/runner/executor.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 // Returns an ExitCode and says on stderr what went wrong. `executor` runs the cases of a grid and the rows of a sweep;
 // null: processes of this machine. Throws Interrupted.
@@ -14,4 +14,4 @@ int run_program(int argc, const char* const* argv, const Executor* executor = nu
 // The message after Interrupted. Names --resume only if the command takes it.
 std::string interruption_text(int argc, const char* const* argv);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

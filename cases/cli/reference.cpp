@@ -12,7 +12,7 @@
 #include "cases/truth/provenance.h"
 #include "cases/truth/truth.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -149,4 +149,4 @@ std::string reference_text(const EngineTable& engines) {
   return command_pages() + metric_pages() + truth_pages() + engine_pages(engines) + trajectory_pages();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

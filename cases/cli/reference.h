@@ -5,9 +5,9 @@
 
 #include "adapters/engines.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 // Pages one after another. Each begins with a first-level heading: commands, metrics, truths, engines, trajectories.
 std::string reference_text(const EngineTable& engines);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -23,7 +23,7 @@
 #include "core/base/json.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 // A file of this process alone, removed at the end.
@@ -238,4 +238,4 @@ CommandRow repeat_row() {
       make_command<RepeatCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -12,7 +12,7 @@
 #include "cases/runner/shards/part.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -176,4 +176,4 @@ CommandRow gate_row() {
           make_gate};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -12,7 +12,7 @@
 #include "core/scene/toml/table_reader.h"
 #include "core/scene/toml/writing/velocity_writer.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 class SettleCommand : public Command {
@@ -53,4 +53,4 @@ CommandRow settle_row() {
           make_command<SettleCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -7,7 +7,7 @@
 #include "cases/gates/deviations.h"
 #include "cases/report/wording/printed_command.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 void SuiteOption::declare(Options& options) {
   options.add({"--suite", "DIR", "folder of the cases; default: Rigor's own"}, dir);
@@ -106,4 +106,4 @@ void SeedOption::declare(Options& options) {
 
 void JsonOption::declare(Options& options) { options.add_flag("--json", "print JSON", is_on); }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -11,7 +11,7 @@
 #include "cases/import/import_options.h"
 #include "cases/runner/shards/shard.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 struct SuiteOption {
   std::string dir;  // of the cases
@@ -94,4 +94,4 @@ struct JsonOption {
   void declare(Options& options);
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -8,7 +8,7 @@
 #include "core/base/json.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 Json texts_of(const std::vector<StepSize>& steps) {
@@ -86,4 +86,4 @@ CommandRow show_row() {
           make_command<ShowCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

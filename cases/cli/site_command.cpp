@@ -6,7 +6,7 @@
 #include "cases/report/site/site.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 class SiteCommand : public Command {
@@ -59,4 +59,4 @@ CommandRow site_row() {
           make_command<SiteCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -17,7 +17,7 @@
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 constexpr const char *kCsv = "sweep.csv", *kJsonLines = "sweep.jsonl", *kPage = "sweep.html";
@@ -280,4 +280,4 @@ CommandRow sweep_row() {
           make_command<SweepCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

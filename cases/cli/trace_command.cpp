@@ -22,7 +22,7 @@
 #include "core/base/names_of.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 20;  // bytes of rows sent at a time
@@ -289,4 +289,4 @@ CommandRow truth_row() {
           make_command<TruthCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -17,7 +17,7 @@
 #include "cases/runner/grid.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 constexpr std::size_t kSettings = 48, kSettingsBeside = 16;  // tried of the engine itself; of each of the others
@@ -244,4 +244,4 @@ CommandRow tune_row() {
           make_command<TuneCommand>};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -6,10 +6,10 @@
 #include "cases/truth/truth.h"
 #include "core/base/names_of.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 Vocabulary vocabulary_of(std::vector<EngineInfo> engines) {
   return {names_of(metrics()), names_of(cross_metrics()), names_of(truths()), std::move(engines), is_held_to_itself};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -3,8 +3,8 @@
 
 #include "cases/case/vocabulary.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 Vocabulary vocabulary_of(std::vector<EngineInfo> engines);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

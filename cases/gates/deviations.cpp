@@ -7,7 +7,7 @@
 #include "cases/case/selection.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 namespace {
 
 bool names_run(const KnownDeviation& row, const RunName& run) {
@@ -97,4 +97,4 @@ void apply_known_deviations(CaseResult& result, const Results& grid, const std::
   for (Cell& cell : result.cells) conclude(cell, result, grid);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

@@ -8,7 +8,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 
 struct KnownDeviation {
   std::string case_id;
@@ -32,4 +32,4 @@ void check_known_deviations(const std::vector<KnownDeviation>& rows, const std::
 // and cells with them. After check_gates.
 void apply_known_deviations(CaseResult& result, const Results& grid, const std::vector<KnownDeviation>& rows);
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

@@ -11,7 +11,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ std::vector<KnownDeviation> read_known_deviations(const std::string& adapters_di
 
 std::string default_adapters_dir() { return home_folder("adapters", RIGOR_ADAPTERS_DIR); }
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

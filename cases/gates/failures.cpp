@@ -7,7 +7,7 @@
 
 #include "cases/gates/gates.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 namespace {
 
 std::string limit_of(const Gate& gate) {
@@ -89,4 +89,4 @@ std::vector<Gate> unmet_family_gates(const Results& grid) {
   return gates;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

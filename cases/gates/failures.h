@@ -7,7 +7,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 
 struct Failure {
   std::string case_id, engine, dt;  // the last two empty where it is not about one run or step
@@ -23,4 +23,4 @@ std::vector<Failure> failures(const Results& results);
 // Gates of families that no cell of any case met: of a whole suite there should be none.
 std::vector<Gate> unmet_family_gates(const Results& grid);
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

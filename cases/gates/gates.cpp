@@ -14,7 +14,7 @@
 #include "cases/results/observed_order.h"
 #include "cases/truth/provenance.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 namespace {
 
 // One gate over one case.
@@ -381,4 +381,4 @@ std::string unit_after(const std::string& metric) {
   return unit.empty() || unit == "1" ? "" : " " + unit;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

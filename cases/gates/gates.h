@@ -4,7 +4,7 @@
 #include "cases/gates/regression.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 
 // |found - limit| <= kRounding * max(1, |limit|) counts as equal. This exceeds a thousand roundings of a double many
 // times, and is far below any scheme error worth a gate.
@@ -28,4 +28,4 @@ bool all_gates_hold(const Results& grid);
 // " m": the unit that stands after a value of this metric; "" where it has none.
 std::string unit_after(const std::string& metric);
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

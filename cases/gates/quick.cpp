@@ -7,7 +7,7 @@
 #include "cases/case/selection.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 namespace {
 
 bool is_quick(const Case& definition, const StepSize& dt) {
@@ -43,4 +43,4 @@ std::vector<Case> quick_selection(const std::vector<Case>& cases, const std::vec
   return selected;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

@@ -6,7 +6,7 @@
 #include "cases/case/case.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 
 // A cell is quick up to so many steps times bodies; ten thousand are some milliseconds of any engine.
 inline constexpr double kQuickBodySteps = 1200;
@@ -16,4 +16,4 @@ inline constexpr double kQuickBodySteps = 1200;
 // left.
 std::vector<Case> quick_selection(const std::vector<Case>& cases, const std::vector<EngineInfo>& engines);
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

@@ -14,7 +14,7 @@
 #include "core/base/json_words.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 namespace {
 
 namespace fs = std::filesystem;
@@ -175,4 +175,4 @@ std::string change_from(double recorded, double value, double factor) {
   return "";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

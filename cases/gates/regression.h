@@ -13,7 +13,7 @@
 #include "cases/case/case.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 
 inline constexpr const char* kRegressionFile = "regression.jsonl";
 
@@ -54,4 +54,4 @@ RegressionText regression_text(const std::string& results_path, const std::strin
 // rounding. Returns the reason of a failure, or "".
 std::string change_from(double recorded, double value, double factor);
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

@@ -9,7 +9,7 @@
 
 #include "core/engine/simulation.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-24;
@@ -59,4 +59,4 @@ double single_precision_allowance(const CaseResult& result, double dt, const std
   return 0;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

@@ -6,9 +6,9 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline gates {
 
 // In the metric's unit, for a run of this step; 0 for a metric that roundings do not reach. `unit`: of the metric.
 double single_precision_allowance(const CaseResult& result, double dt, const std::string& unit);
 
-}  // namespace rigor
+}  // namespace rigor::inline gates

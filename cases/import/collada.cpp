@@ -9,7 +9,7 @@
 #include "cases/import/mesh_shape.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 using Affine = Eigen::Transform<double, 3, Eigen::Affine>;
@@ -161,4 +161,4 @@ std::vector<Vec3> points_of_collada(const std::string& path) {
   return ColladaReader(file).points();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -20,7 +20,7 @@
 #include "core/scene/contact_laws.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr std::size_t kMostMemory = std::size_t{900} << 20;  // bytes, beside the program's own
@@ -169,4 +169,4 @@ std::string falls_freely(const Scene& scene) {
   return free == is_held.end() ? "" : scene.bodies[free - is_held.begin()].name;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -10,7 +10,7 @@
 #include "core/scene/left_out.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // By the ending: .urdf, .sdf, .mjcf, .xml or .xacro. The root of the file decides which format it is.
 bool is_model_file(const std::string& path);
@@ -43,4 +43,4 @@ std::string case_text_of(const Import& import);
 // touched. Empty if there is none.
 std::string falls_freely(const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

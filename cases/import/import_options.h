@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // How a robot's file is imported.
 struct ImportOptions {
@@ -12,4 +12,4 @@ struct ImportOptions {
   bool ground = false;          // add a plane under the lowest point
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

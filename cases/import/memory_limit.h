@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/sanitizers.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // A sanitizer's own maps are terabytes.
 inline constexpr bool kMemoryIsCounted = !kHasAddressSanitizer && !kHasThreadSanitizer;
@@ -48,4 +48,4 @@ auto within_memory(std::size_t most, const std::string& file, const Work& work) 
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

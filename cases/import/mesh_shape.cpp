@@ -12,7 +12,7 @@
 #include "core/scene/shapes/mesh_file.h"
 #include "core/scene/toml/file_reader.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr std::size_t kMostHullCorners = 500;  // more cost time in each step, and differ by less than a printer's layer
@@ -113,4 +113,4 @@ std::optional<Shape> hull_of_mesh(const std::string& path, const Vec3& scale, co
   return hull_shape(points, element.place(), left_out);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -5,7 +5,7 @@
 
 #include "cases/import/xml.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // The hull of a mesh's points, each multiplied by `scale`. Adds to left_out a mesh that is not found in its package,
 // that is flat, or whose format has no reader. `element` names `path`; `model` is the robot's file. Throws InputError
@@ -19,4 +19,4 @@ std::optional<Shape> hull_shape(const std::vector<Vec3>& points, const std::stri
 // The points of a COLLADA file (.dae) in m, where its scene has them.
 std::vector<Vec3> points_of_collada(const std::string& path);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -9,7 +9,7 @@
 #include "core/base/unit_vector.h"
 #include "core/scene/validate.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 Quat turn_of(double roll, double pitch, double yaw) {
   const auto about = [](double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis)); };
@@ -62,4 +62,4 @@ Vec3 direction_of(const Vec3& axis, const XmlElement& element) {
 
 double least_of(double a, double b) { return std::min(a, b); }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -3,7 +3,7 @@
 
 #include "cases/import/xml.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // Turns about the fixed axes x, y and z, in this order [rad].
 Quat turn_of(double roll, double pitch, double yaw);
@@ -31,4 +31,4 @@ inline const Reason kIsSeen = no_motion("is only drawn");
 // These formats have no drives. A joint moves freely within its stops, whatever a drive could give or reach.
 inline const Reason kBoundsADrive = no_motion("bounds a drive, and the joint has none");
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

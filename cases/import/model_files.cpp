@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ MjcfSource check_files_of_mjcf(const XmlFile& model) {
   return std::move(files).source();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -7,7 +7,7 @@
 #include "adapters/common/compiled_mjcf.h"
 #include "cases/import/xml.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // Refuses, at the element that names it, a path that leaves the folder of `model`. A URI of packages, "package://" or
 // "model://", names no path of this machine and is never looked up.
@@ -22,4 +22,4 @@ std::optional<std::string> file_of_mesh(const std::string& path, const XmlElemen
 // size. Returns these files, and the place of each element with a name.
 MjcfSource check_files_of_mjcf(const XmlFile& model);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

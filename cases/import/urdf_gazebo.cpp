@@ -8,7 +8,7 @@
 #include "cases/import/model_elements.h"
 #include "cases/import/sdf/sdf_link.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 namespace {
 
@@ -90,4 +90,4 @@ void read_urdf_gazebo(const XmlElement& element, const std::map<std::string, std
   if ((off && flag_of(*off, model.left_out)) || (gravity && !flag_of(*gravity, model.left_out))) link.lifted = 1;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

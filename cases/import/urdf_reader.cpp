@@ -12,7 +12,7 @@
 #include "cases/import/urdf_gazebo.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s²: the format states none
@@ -363,4 +363,4 @@ class UrdfReader {
 
 LinkModel read_urdf(const XmlFile& file, const ImportOptions& options) { return UrdfReader(file, options).read(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

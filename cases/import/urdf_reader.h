@@ -5,8 +5,8 @@
 #include "cases/import/import_options.h"
 #include "cases/import/xml.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 LinkModel read_urdf(const XmlFile& file, const ImportOptions& options);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -13,7 +13,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/toml/file_reader.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr const char* kWhite = " \t\r\n";
@@ -273,4 +273,4 @@ XmlFile::~XmlFile() = default;
 
 XmlElement XmlFile::root() const { return {document_->RootElement(), &path_}; }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -15,7 +15,7 @@ class XMLDocument;
 class XMLElement;
 }  // namespace tinyxml2
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // The words that an element may hold. `left_out`: words of the format that no scene can say, and why.
 struct XmlKnown {
@@ -85,4 +85,4 @@ class XmlFile {
   std::unique_ptr<tinyxml2::XMLDocument> document_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -25,7 +25,7 @@
 #include "core/engine/run_name.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 namespace {
 
 // Infinite values are words in JSON.
@@ -339,4 +339,4 @@ std::string LaboratoryCalls::answer(std::string_view text) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -26,7 +26,7 @@
 #include "adapters/engines.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 
 class Experiment;
 
@@ -62,4 +62,4 @@ class LaboratoryCalls {
   std::vector<double> numbers_, given_;  // of the answer, and of the request
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -12,7 +12,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -134,4 +134,4 @@ Cell Experiment::judge(bool brief) const {
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -15,7 +15,7 @@
 #include "core/engine/engine.h"
 #include "core/engine/trajectory.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 
 // After a step. Not a number: not known (no truth yet), or not finite.
 struct LiveReading {
@@ -69,4 +69,4 @@ class Experiment {
   std::string why_ended_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

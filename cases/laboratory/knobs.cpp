@@ -11,7 +11,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 namespace {
 
 constexpr double kRange = 100;  // a logarithmic knob reaches from a hundredth of its value to a hundred times it
@@ -162,4 +162,4 @@ Scene with_knobs(const Scene& scene, const KnobValues& values) {
   return changed;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

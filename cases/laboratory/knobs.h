@@ -7,7 +7,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 
 // A knob acts on all springs, bodies or pairs at once; if these differ, `value` is that of the first. With stiffness
 // and mass the others keep their ratio to it. With damping, restitution and friction all get the same value.
@@ -28,4 +28,4 @@ std::vector<Knob> knobs_of(const Scene& scene);
 // The scene with these values. Throws InputError for a knob that the scene does not have, and for a value out of range.
 Scene with_knobs(const Scene& scene, const KnobValues& values);
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -2,7 +2,7 @@
 
 #include "cases/import/import.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 
 RobotCase robot_case(const std::string& path, bool with_ground) {
   ImportOptions options;
@@ -11,4 +11,4 @@ RobotCase robot_case(const std::string& path, bool with_ground) {
   return {case_text_of(import), lines_of(import.losses), falls_freely(import.scene)};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline laboratory {
 
 struct RobotCase {
   std::string text;                // of the case file
@@ -16,4 +16,4 @@ struct RobotCase {
 // "path:line: what".
 RobotCase robot_case(const std::string& path, bool with_ground);
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

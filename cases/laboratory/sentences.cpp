@@ -10,7 +10,7 @@
 #include "cases/report/wording/wording.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 
 std::vector<Message> live_explanations(const EngineTable& engines, const Case& changed, const StepSize& dt,
                                        const std::vector<LiveRun>& runs) {
@@ -52,4 +52,4 @@ std::string sentence_on(const LiveMode& mode, const StepSize& dt) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -11,7 +11,7 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 
 struct LiveRun {
   std::string run;  // its name
@@ -34,4 +34,4 @@ std::optional<LiveMode> stiffest_mode(const Case& changed, const StepSize& dt, c
 // (core:explicit-euler), 0.991 (core:rk4)."
 std::string sentence_on(const LiveMode& mode, const StepSize& dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -11,7 +11,7 @@
 #include "core/scene/contact_laws.h"
 #include "core/world.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 namespace {
 
 // The solvers of truths take minutes for more.
@@ -97,4 +97,4 @@ TruthTable provisional_table(const Case& changed, double dt) {
   return table;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -10,7 +10,7 @@
 #include "cases/truth/truth.h"
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline laboratory {
 
 struct TrueMotion {
   std::unique_ptr<Truth> truth;  // null: there is none
@@ -42,4 +42,4 @@ TruthTable truth_table(const Case& changed, const TrueMotion& motion, double dt)
 // A stand-in until the truth is solved. Throws InputError for a scene that dormand-prince does not take.
 TruthTable provisional_table(const Case& changed, double dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline laboratory

@@ -9,7 +9,7 @@
 #include "cases/metrics/measures/momentum_series.h"
 #include "core/dynamics/model/energy.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 Vec3 centre_of_mass(const Scene& scene, BodyColumns bodies) {
@@ -60,4 +60,4 @@ MetricRow angular_momentum_drift() {
           measure_angular_momentum_drift};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 #include "cases/metrics/measures/built_at_rest.h"
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_collapse_time(const JudgedRun& run) {
@@ -27,4 +27,4 @@ MetricRow collapse_time() {
           .higher_is_better = true};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -8,7 +8,7 @@
 #include "cases/metrics/measures/contact/pair_forces.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // By body: the first body of those that are held together, or kWorld for what is held to the world.
@@ -83,4 +83,4 @@ MetricRow contact_balance() {
           .needs = {.contacts = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

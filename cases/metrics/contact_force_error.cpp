@@ -2,7 +2,7 @@
 // implies, in the directions in which the equations of motion determine it (equilibrium.h). Both are means over a step.
 #include "cases/metrics/measures/contact/pair_differences.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_force_error(const JudgedRun& run) {
@@ -23,4 +23,4 @@ MetricRow contact_force_error() {
           .needs = {.truth = true, .contacts = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -13,7 +13,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/shape_gap.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 struct Load {
@@ -109,4 +109,4 @@ MetricRow hover() {
           .needs = {.contacts = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -13,7 +13,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // The largest value that `of` finds among the contacts of each sample after the first.
@@ -70,4 +70,4 @@ MetricRow signorini_residual() {
           .needs = {.contacts = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

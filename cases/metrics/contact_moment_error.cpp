@@ -9,7 +9,7 @@
 // It is the centre of pressure of Sardain and Bessonnet (Forces acting on a biped robot, IEEE Trans. SMC A 34, 2004).
 #include "cases/metrics/measures/contact/pair_differences.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 std::string why_no_moments(const JudgedRun& run) {
@@ -99,4 +99,4 @@ MetricRow centre_of_pressure_error() {
           .needs = {.truth = true, .contacts = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -4,7 +4,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_cost(const JudgedRun& run) {
@@ -29,4 +29,4 @@ MetricRow cost() {
           .is_compared = false};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -5,7 +5,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // The coefficient of a point. A point that does not slide has its static friction; so has one that slides only at the
@@ -52,4 +52,4 @@ MetricRow coulomb_residual() {
           .needs = {.contacts = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

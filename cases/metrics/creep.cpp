@@ -3,7 +3,7 @@
 #include "cases/metrics/measures/built_at_rest.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_creep(const JudgedRun& run) {
@@ -35,4 +35,4 @@ MetricRow creep() {
           .needs = {}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

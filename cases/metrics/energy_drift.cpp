@@ -4,7 +4,7 @@
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_with(const JudgedRun& run, double stagger) {
@@ -31,4 +31,4 @@ MetricRow energy_drift_synchronised() {
           [](const JudgedRun& run) { return measure_with(run, run.leapfrog_stagger); }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

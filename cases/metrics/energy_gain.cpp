@@ -5,7 +5,7 @@
 #include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_energy_gain(const JudgedRun& run) {
@@ -32,4 +32,4 @@ MetricRow energy_gain() {
           .needs = {}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

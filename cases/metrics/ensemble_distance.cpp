@@ -6,7 +6,7 @@
 #include "cases/metrics/measures/ensembles.h"
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measured(const JudgedRun& run, double EnergyTest::*what, const char* component) {
@@ -47,4 +47,4 @@ MetricRow ensemble_p_value() {
       .is_compared = false};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -6,7 +6,7 @@
 #include "cases/metrics/measures/contact/true_wrenches.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // The force of each pair at rest, where the equations of motion determine it and it is not zero.
@@ -104,4 +104,4 @@ MetricRow force_ripple() {
           .needs = {.truth = true, .contacts = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

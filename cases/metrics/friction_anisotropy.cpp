@@ -7,7 +7,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/stop_distances.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_friction_anisotropy(const JudgedRun& run) {
@@ -38,4 +38,4 @@ MetricRow friction_anisotropy() {
           measure_friction_anisotropy};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

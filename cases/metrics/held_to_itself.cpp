@@ -4,7 +4,7 @@
 #include "cases/metrics/metric.h"
 #include "cases/truth/provenance.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 bool is_against_truth(const std::string& metric) {
   if (metric == "spread" || metric == "spread_orientation") return false;  // runs are compared with each other
@@ -24,4 +24,4 @@ bool is_case_held_to_itself(const Case& definition, const std::string& metric, c
   return is_held_to_itself(definition.truth, metric, run, definition.scene);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -7,7 +7,7 @@
 #include "core/engine/run_name.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // Whether a metric takes its expected value from the truth, always or in some scenes. An unknown metric does.
 bool is_against_truth(const std::string& metric);
@@ -17,4 +17,4 @@ bool is_held_to_itself(const std::string& truth, const std::string& metric, cons
 // The same of a case, whose truth may be a synthetic recording that the run's engine made.
 bool is_case_held_to_itself(const Case& definition, const std::string& metric, const RunName& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

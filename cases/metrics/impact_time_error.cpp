@@ -6,7 +6,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 Trajectory truth_of(const JudgedRun& run, std::size_t count) {
@@ -48,4 +48,4 @@ MetricRow impact_time_error() {
           measure_impact_time_error};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

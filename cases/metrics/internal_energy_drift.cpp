@@ -5,7 +5,7 @@
 #include "cases/metrics/measures/internal_energy.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_internal_energy_drift(const JudgedRun& run) {
@@ -29,4 +29,4 @@ MetricRow internal_energy_drift() {
           .needs = {}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 // that depends on dt, and a projection keeps it at rounding.
 #include "cases/metrics/measures/joints/joint_series.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_gap(const JudgedRun& run, const std::string& what, OfJoint quantity) {
@@ -29,4 +29,4 @@ MetricRow joint_gap_rate() {
           .needs = {}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -2,7 +2,7 @@
 // (joint_geometry.h).
 #include "cases/metrics/measures/joints/joint_series.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_twist(const JudgedRun& run, const std::string& what, OfJoint quantity) {
@@ -30,4 +30,4 @@ MetricRow joint_twist_rate() {
       .needs = {}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 #include "cases/metrics/measures/momentum_series.h"
 #include "core/dynamics/model/energy.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_linear_momentum_drift(const JudgedRun& run) {
@@ -29,4 +29,4 @@ MetricRow linear_momentum_drift() {
           measure_linear_momentum_drift};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

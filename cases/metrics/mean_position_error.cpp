@@ -2,7 +2,7 @@
 // Validating Robotics Simulators on Real-World Impacts, 2022: percent of the cube's width).
 #include "cases/metrics/measures/recorded/recorded_gaps.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_mean_position_error(const JudgedRun& run) {
@@ -21,4 +21,4 @@ MetricRow mean_position_error() {
           .measure = measure_mean_position_error};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -2,7 +2,7 @@
 // Real-World Impacts, 2022).
 #include "cases/metrics/measures/recorded/recorded_gaps.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_mean_rotation_error(const JudgedRun& run) {
@@ -20,4 +20,4 @@ MetricRow mean_rotation_error() {
           .measure = measure_mean_rotation_error};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -13,7 +13,7 @@
 #include "core/engine/trajectory.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // The truth at the instants of a trajectory's samples, so that no metric recomputes it.
 struct TruthSamples {
@@ -129,4 +129,4 @@ const std::vector<CrossMetricRow>& cross_metrics();  // alphabetical
 // Looks in both kinds of metrics; empty if there is none of that name.
 std::string unit_of_metric(const std::string& name);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

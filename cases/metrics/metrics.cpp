@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // One declaration and one row a metric, alphabetical; each is defined in the file of its name.
 MetricRow angular_momentum_drift();
@@ -154,4 +154,4 @@ std::string unit_of_metric(const std::string& name) {
   return "";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

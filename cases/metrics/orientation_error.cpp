@@ -2,7 +2,7 @@
 // its negative are the same orientation, and a quaternion's length does not matter here (see orthonormality_error).
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_orientation_error(const JudgedRun& run) {
@@ -33,4 +33,4 @@ MetricRow orientation_error() {
           .headline = 2};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

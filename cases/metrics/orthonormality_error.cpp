@@ -2,7 +2,7 @@
 // engine's own matrix where it keeps one, else that of its quaternion as it stands, whose lost norm then shows.
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_orthonormality_error(const JudgedRun& run) {
@@ -30,4 +30,4 @@ MetricRow orthonormality_error() {
           .needs = {}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -6,7 +6,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_penetration(const JudgedRun& run) {
@@ -39,4 +39,4 @@ MetricRow penetration() {
           .needs = {}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

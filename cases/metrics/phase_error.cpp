@@ -19,7 +19,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/pose_gap.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 constexpr int kEitherWay = 16;  // shifts tried
@@ -221,4 +221,4 @@ MetricRow phase_error() {
           .is_costly = true};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 constexpr const char* kAxes[] = {"position.x", "position.y", "position.z"};
@@ -47,4 +47,4 @@ MetricRow position_error() {
           .headline = 1};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

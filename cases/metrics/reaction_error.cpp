@@ -4,7 +4,7 @@
 #include "cases/metrics/measures/joints/joint_series.h"
 #include "cases/metrics/measures/joints/reaction_difference.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_reaction(const JudgedRun& run, const ReactionPart& part) {
@@ -45,4 +45,4 @@ MetricRow reaction_torque_error() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

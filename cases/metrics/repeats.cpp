@@ -5,7 +5,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 bool have_same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -53,4 +53,4 @@ MetricRow repeats() {
           .is_costly = true};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

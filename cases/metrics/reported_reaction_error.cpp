@@ -8,7 +8,7 @@
 #include "cases/metrics/measures/joints/reaction_difference.h"
 #include "cases/metrics/measures/joints/reported_at_joint.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 class ReportedReactions {
@@ -90,4 +90,4 @@ MetricRow reported_reaction_torque_error() {
       .needs = {.truth = true, .reactions = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -5,7 +5,7 @@
 #include "cases/metrics/measures/contact/impacts.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_restitution_error(const JudgedRun& run) {
@@ -36,4 +36,4 @@ MetricRow restitution_error() {
           .needs = {}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

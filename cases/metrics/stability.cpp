@@ -11,7 +11,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 constexpr double kBlownUp = 10;  // times the energy in play
@@ -82,4 +82,4 @@ EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double du
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

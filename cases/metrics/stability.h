@@ -9,7 +9,7 @@
 #include "core/engine/simulation.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // Blown up: a number is not finite, or |E - E0| > 10 x the energy in play of the truth. That is its largest kinetic
 // energy or, if larger, the largest change of its energy: a weight that dampers bring to rest moves little and loses
@@ -29,4 +29,4 @@ EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double du
 // amount, as on a long slope; then only a rise is bounded. Also false if the energy is NaN.
 bool is_bounded(double change, double energy_in_play, bool may_lose);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -5,7 +5,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/stop_distances.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_stop_distance_error(const JudgedRun& run) {
@@ -28,4 +28,4 @@ MetricRow stop_distance_error() {
           measure_stop_distance_error};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

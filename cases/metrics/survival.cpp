@@ -3,7 +3,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_survival(const JudgedRun& run) {
@@ -26,4 +26,4 @@ MetricRow survival() {
           .higher_is_better = true};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

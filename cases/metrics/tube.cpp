@@ -9,7 +9,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "cases/metrics/measures/pose_gap.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 constexpr double kLeastRadius = 1e-3;               // m
@@ -128,4 +128,4 @@ MetricRow tube() {
           .is_costly = true};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

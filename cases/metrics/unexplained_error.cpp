@@ -2,7 +2,7 @@
 // position error that the scheme does not explain. In metres; it is rounding while below 1e-9 of motion_extents().
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_unexplained_error(const JudgedRun& run) {
@@ -40,4 +40,4 @@ MetricRow unexplained_error() {
           .needs = {.twin = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

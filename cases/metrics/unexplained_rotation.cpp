@@ -2,7 +2,7 @@
 // orientation error that the scheme does not explain. Relative to one radian.
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_unexplained_rotation(const JudgedRun& run) {
@@ -34,4 +34,4 @@ MetricRow unexplained_rotation() {
           .needs = {.twin = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

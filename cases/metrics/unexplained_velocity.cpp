@@ -4,7 +4,7 @@
 
 #include "cases/metrics/measures/rate_gap.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_unexplained_velocity(const JudgedRun& run, RateOf rate, const char* letter) {
@@ -38,4 +38,4 @@ MetricRow unexplained_velocity() {
       .needs = {.twin = true}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -2,7 +2,7 @@
 // the positions. This is a first-order error here, because the values read belong to no single instant.
 #include "cases/metrics/measures/rate_gap.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 MetricResult measure_velocity_error(const JudgedRun& run, RateOf rate, const char* letter) {
@@ -23,4 +23,4 @@ MetricRow velocity_error() {
           [](const JudgedRun& run) { return measure_velocity_error(run, &BodyColumns::velocity, "v"); }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -18,7 +18,7 @@
 #include "core/base/error.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // Relative to the energy in play. A drift must exceed the random variation of the means of tenths. A rise is in both
@@ -219,4 +219,4 @@ Stability verdict_on(const JudgedRun& run) {
   return worst_of(found);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -5,7 +5,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // From the best to the worst; of several that apply the worst is the word, and all of them are in the sentence.
 //   drifting     the energy, with the velocities brought to the positions' time, has moved away from what it should be
@@ -37,4 +37,4 @@ std::string phrase_of(const Stability& stability);  // "gaining 13 %", "overlapp
 // Of a run that did not blow up.
 Stability verdict_on(const JudgedRun& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

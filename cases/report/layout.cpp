@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // The end of the first `count` characters of a text.
@@ -58,4 +58,4 @@ std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace rigor {
+namespace rigor::inline report {
 
 // In characters: the variable COLUMNS, or the width of the terminal that stdout is. Nothing if neither is known.
 std::optional<std::size_t> terminal_width();
@@ -20,4 +20,4 @@ std::string wrapped(const std::string& text, std::size_t indent);
 // The number of characters. One of UTF-8 may take several bytes.
 std::size_t width_of(const std::string& text);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

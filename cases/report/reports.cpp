@@ -4,7 +4,7 @@
 #include "cases/report/csv/trajectory_csv.h"
 #include "cases/report/html/playback.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // One row a writer, alphabetical.
 const std::vector<ReportRow>& reports() {
@@ -28,4 +28,4 @@ Recorders recorders_for(const Results& grid, const std::string& folder, bool has
   return recorders;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "cases/runner/recorder.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct ReportRow {
   std::string name;
@@ -24,4 +24,4 @@ std::string json_report(const Results& results);
 std::string junit_report(const Results& results);
 std::string markdown_report(const Results& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -16,7 +16,7 @@
 #include "core/base/json.h"
 #include "core/base/json_words.h"
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 constexpr const char* kTabForm = "# Rigor baseline 1";
@@ -257,4 +257,4 @@ std::string baseline_text(const Baseline& baseline) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

@@ -11,7 +11,7 @@
 #include "cases/results/cell_key.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 struct Baseline {
   struct Cell {
@@ -38,4 +38,4 @@ Baseline read_baseline(const std::string& path);
 // Numbers have four digits: what changes less than that is not worth a line in a difference.
 std::string baseline_text(const Baseline& baseline);
 
-}  // namespace rigor
+}  // namespace rigor::inline results

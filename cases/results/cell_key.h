@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <string>
 
-namespace rigor {
+namespace rigor::inline results {
 
 // The parts that are not empty, in order.
 std::string joined_parts(std::initializer_list<std::string> parts, const std::string& between);
@@ -38,4 +38,4 @@ struct SettingKey {
   std::string text() const { return joined_parts({engine, setting}, ", "); }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline results

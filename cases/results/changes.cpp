@@ -9,7 +9,7 @@
 
 #include "cases/metrics/verdict.h"
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 // 0: as it should be; 1: not run, for it cannot be; 2: something is wrong.
@@ -182,4 +182,4 @@ std::string text_of(const Changes& changes, double factor) {
   return text + (changes.is_worse() ? "worse\n" : "not worse\n");
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

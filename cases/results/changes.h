@@ -6,7 +6,7 @@
 
 #include "cases/results/baseline.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 // An error this small [m, rad, 1] is rounding, and its growth says nothing.
 inline constexpr double kNoise = 1e-9;
@@ -30,4 +30,4 @@ Changes changes_between(const Baseline& old_baseline, const Baseline& new_baseli
 
 std::string text_of(const Changes& changes, double factor);
 
-}  // namespace rigor
+}  // namespace rigor::inline results

@@ -18,7 +18,7 @@
 #include "core/base/json.h"
 #include "core/base/json_words.h"
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 constexpr const char* kFormKey = "rigor_history";
@@ -130,4 +130,4 @@ std::vector<HistoryEntry> read_history(const std::string& file) {
   return entries;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

@@ -9,7 +9,7 @@
 #include "cases/results/cell_key.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 struct HistoryEntry {
   std::string commit, date, machine;  // the date as 2026-01-31T12:00:00Z
@@ -31,4 +31,4 @@ void add_to_history(const std::string& file, const HistoryEntry& entry);
 // Throws InputError, with the line, for a file that cannot be read or is no history.
 std::vector<HistoryEntry> read_history(const std::string& file);
 
-}  // namespace rigor
+}  // namespace rigor::inline results

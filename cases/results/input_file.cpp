@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 std::string read_input_file(const std::string& path, const std::string& what) {
   std::error_code error;
@@ -26,4 +26,4 @@ std::string read_input_file(const std::string& path, const std::string& what) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline results {
 
 // Larger than any results.json of a suite; stops the reading of an endless file.
 inline constexpr std::size_t kLargestInput = std::size_t{1} << 30;  // bytes
@@ -12,4 +12,4 @@ inline constexpr std::size_t kLargestInput = std::size_t{1} << 30;  // bytes
 // `what` says what to give instead: "a results.json or a baseline".
 std::string read_input_file(const std::string& path, const std::string& what);
 
-}  // namespace rigor
+}  // namespace rigor::inline results

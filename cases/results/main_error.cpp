@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 // Not a number where the cell has no such value.
@@ -33,4 +33,4 @@ std::string main_error(const CaseResult& result) {
   return has_truth && worst_of(result, "energy_drift") < kMoves ? "position_error" : "energy_drift_synchronised";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

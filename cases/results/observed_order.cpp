@@ -7,7 +7,7 @@
 
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 const MetricValue* value_of(const Cell& cell, const std::string& metric) {
@@ -92,4 +92,4 @@ ObservedOrder observed_order(const CaseResult& result, std::size_t run, const st
   return order;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

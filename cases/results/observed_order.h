@@ -8,7 +8,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 // The exponent p of value = c dt^p, fitted by least squares to the logarithms. Two points or more.
 double fitted_order(const std::vector<double>& dt, const std::vector<double>& values);
@@ -44,4 +44,4 @@ ObservedOrder observed_order(
     const CaseResult& result, std::size_t run, const std::string& metric,
     const std::function<bool(const StepSize&)>& selects = [](const StepSize&) { return true; });
 
-}  // namespace rigor
+}  // namespace rigor::inline results

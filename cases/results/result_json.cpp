@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 constexpr const char *kInfinite = "inf", *kMinusInfinite = "-inf", *kNoNumber = "nan";
@@ -283,4 +283,4 @@ MessageSubject apply_message(CaseResult& result, const std::string& message) {
   return {Part::stable_step, run};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

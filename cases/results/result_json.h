@@ -6,7 +6,7 @@
 #include "cases/results/results.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 std::string message_of_truth(const TruthFacts& facts);
 std::string message_of_cell(std::size_t index, const Cell& cell, const Scene& scene);
@@ -32,4 +32,4 @@ Json json_of(const StableStepResult& result);
 std::string text_of(Json value, int indent);
 double number_of(const Json& value);  // throws std::exception for any other JSON
 
-}  // namespace rigor
+}  // namespace rigor::inline results

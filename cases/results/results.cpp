@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 // In the order of the enumeration.
 constexpr const char* kStatusWords[] = {"pass",     "fail",    "known-deviation", "unexpected-pass", "unsupported",
@@ -57,4 +57,4 @@ bool is_in_house(const Results& results, std::size_t run) {
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

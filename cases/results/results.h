@@ -13,7 +13,7 @@
 #include "core/engine/capabilities.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 // The end of a cell. invalid: the engine refused the scene, or its method did not keep its promise (an iteration that
 // did not converge) in a run that did not blow up. A run that blew up is `diverged`, with or without a warning.
@@ -141,4 +141,4 @@ struct Results {
 
 bool is_in_house(const Results& results, std::size_t run);  // see EngineInfo
 
-}  // namespace rigor
+}  // namespace rigor::inline results

@@ -8,7 +8,7 @@
 
 #include "core/engine/simulation.h"
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 Quat orientation_in(const std::array<double, 7>& pose) { return {pose[3], pose[4], pose[5], pose[6]}; }
@@ -87,4 +87,4 @@ Spread spread_between(const Path& a, const Path& b) {
   return spread;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

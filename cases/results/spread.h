@@ -10,7 +10,7 @@
 #include "cases/case/case.h"
 #include "core/engine/trajectory.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 struct Path {
   std::size_t bodies = 0;
@@ -50,4 +50,4 @@ struct Spread {
 // Over the instants that both have. The runs and dt are left for the caller to fill in.
 Spread spread_between(const Path& a, const Path& b);
 
-}  // namespace rigor
+}  // namespace rigor::inline results

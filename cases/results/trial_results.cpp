@@ -9,7 +9,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 constexpr const char* kTrials = "trials";
@@ -88,4 +88,4 @@ std::optional<PairedDifference> paired_difference(const std::vector<TrialResult>
   return PairedDifference{mean, mean - half, mean + half};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

@@ -9,7 +9,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 struct TrialResult {
   std::string name;
@@ -44,4 +44,4 @@ struct PairedDifference {
 std::optional<PairedDifference> paired_difference(const std::vector<TrialResult>& of,
                                                   const std::vector<TrialResult>& than, const std::string& metric);
 
-}  // namespace rigor
+}  // namespace rigor::inline results

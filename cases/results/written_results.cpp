@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline results {
 namespace {
 
 std::string text_in(const Json& json, const char* key) { return json.at(key).get<std::string>(); }
@@ -124,4 +124,4 @@ Results results_from(const Json& results) {
   return out;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline results

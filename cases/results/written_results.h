@@ -5,9 +5,9 @@
 #include "cases/results/results.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline results {
 
 // Throws std::exception for JSON that is no results.json of the present schema.
 Results results_from(const Json& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline results

@@ -7,7 +7,7 @@
 
 #include "core/base/content_hash.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 // In the list of loaded objects the program has no name, and the kernel's object has no file.
@@ -30,4 +30,4 @@ const std::string& build_identity() {
   return identity;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

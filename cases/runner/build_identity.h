@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // A hash of the bytes of the program and of every linked shared library, engines included. Computed once.
 const std::string& build_identity();
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

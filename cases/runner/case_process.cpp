@@ -21,7 +21,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 Status status_of(FailureKind kind) {
   switch (kind) {
@@ -331,4 +331,4 @@ void run_case(const Results& grid, const CaseResult& planned, const EngineTable&
   jobs.run(channel, journal);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

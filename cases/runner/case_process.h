@@ -8,7 +8,7 @@
 #include "cases/runner/truth_samples.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 class EnsembleReference;  // ensemble.h
 
@@ -35,4 +35,4 @@ TruthFacts facts_of(const Case& definition, const Truth* truth);
 // where no truth is known.
 std::vector<Spread> spreads_of(const CaseResult& planned, const PathsOfCells& paths);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -8,7 +8,7 @@
 #include "core/engine/engine.h"
 #include "core/engine/simulation.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 constexpr const char* kReference = "core:velocity-verlet";  // with the contact that the core takes by itself
@@ -101,4 +101,4 @@ std::string cost_of_ensemble(const Case& definition, std::size_t cells) {
                      definition.ensemble, 2 * definition.ensemble, definition.ensemble, cells);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -8,7 +8,7 @@
 #include "cases/metrics/measures/ensembles.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 inline constexpr double kJitter = 1e-6;  // m and m/s, along each axis at most
 inline constexpr int kPermutations = 999;
@@ -36,4 +36,4 @@ class EnsembleReference {
 // "64 starts: 128 runs of a reference and 64 in each of 6 cells"; empty for a case without ensembles.
 std::string cost_of_ensemble(const Case& definition, std::size_t cells);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

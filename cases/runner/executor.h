@@ -11,7 +11,7 @@
 #include "cases/case/case.h"
 #include "cases/runner/process_pool.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 struct JobSpec {
   enum class Kind { whole_case, cell, stable_step };
@@ -110,4 +110,4 @@ class ProcessExecutor : public Executor {
   int at_once_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

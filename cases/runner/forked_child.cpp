@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 // A limit is one of CPU time, so that no verdict depends on what else the machine does; a job that sleeps ends too,
@@ -161,4 +161,4 @@ void ForkedChild::take_frame(char kind, const std::string& text,
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

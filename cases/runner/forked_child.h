@@ -10,7 +10,7 @@
 #include "cases/runner/platform/platform.h"
 #include "cases/runner/process_pool.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // Of a file, closed with it.
 class Descriptor {
@@ -60,4 +60,4 @@ class ForkedChild {
   bool has_sent_ = false, timed_out_ = false;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

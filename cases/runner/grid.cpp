@@ -17,7 +17,7 @@
 #include "cases/runner/stable_step.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 void check_steps(const Case& definition, const StepSize& dt) {
@@ -290,4 +290,4 @@ void run_grid(Results& grid, const EngineTable& engines, const GridOptions& opti
   grid.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -12,7 +12,7 @@
 #include "cases/runner/executor.h"
 #include "cases/runner/recorder.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // Changes of the cases by the command line.
 struct Overrides {
@@ -60,4 +60,4 @@ Results plan_grid(const std::vector<Case>& cases, const std::vector<RunName>& ru
 void run_grid(Results& grid, const EngineTable& engines, const GridOptions& options,
               const std::function<void(std::size_t done, std::size_t all)>& on_progress);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

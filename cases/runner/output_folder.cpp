@@ -20,7 +20,7 @@
 #include "cases/runner/platform/platform.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 namespace fs = std::filesystem;
@@ -232,4 +232,4 @@ std::vector<std::string> faults_of_writing(OutputFolder& folder, const std::vect
   return faults;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

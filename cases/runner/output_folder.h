@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline runner {
 
 class OutputFolder {
  public:
@@ -60,4 +60,4 @@ struct OutputFile {
 std::vector<std::string> faults_of_writing(OutputFolder& folder, const std::vector<OutputFile>& files,
                                            const std::vector<std::string>& trajectories, bool can_resume);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

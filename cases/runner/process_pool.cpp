@@ -10,7 +10,7 @@
 #include "cases/runner/forked_child.h"
 #include "cases/runner/platform/platform.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 struct Heartbeat {
@@ -118,4 +118,4 @@ void run_jobs(JobFeed& feed, int at_once, const std::function<void(std::size_t, 
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

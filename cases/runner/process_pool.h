@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // The child's end of the pipe.
 class Channel {
@@ -71,4 +71,4 @@ void run_jobs(const std::vector<Job>& jobs, int at_once,
               const std::function<void(std::size_t job, const std::string& message)>& on_message,
               const std::function<void(std::size_t job, const JobEnd& end)>& on_end);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -8,7 +8,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 struct NamedSeries {
   std::string name;            // of the metric
@@ -33,4 +33,4 @@ class Recorder {
 };
 using Recorders = std::vector<std::shared_ptr<const Recorder>>;
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -16,7 +16,7 @@
 #include "cases/truth/provenance.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 void conclude(Cell& cell, const Simulation& run, const Scene& scene) {
@@ -196,4 +196,4 @@ JudgedCell run_cell(const Cell& planned, const Case& definition, const EngineTab
   return judged;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

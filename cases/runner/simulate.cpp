@@ -13,7 +13,7 @@
 #include "core/engine/engine.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 constexpr std::size_t kMostContacts = 1'000'000;  // of a step: 100 MB
@@ -254,4 +254,4 @@ double timed_again(const Engine& engine, const Settings& settings, const Scene& 
   return std::max(quickest, run.cpu_seconds - of_clock * static_cast<double>(steps));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -5,7 +5,7 @@
 
 #include "core/engine/simulation.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // Every step is recorded, or every n-th if all of them would exceed this.
 inline constexpr double kLargestTrajectory = 512e6;  // bytes
@@ -33,4 +33,4 @@ void check_start(const Simulation& run, const Scene& scene);
 // both ways, and each step is corrected by the difference.
 double timed_again(const Engine& engine, const Settings& settings, const Scene& scene, const Simulation& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <optional>
 
-#include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/measures/contact/tunnelling.h"
+#include "cases/metrics/measures/energy_series.h"
 #include "cases/metrics/stability.h"
 #include "core/dynamics/model/energy.h"
 #include "core/engine/engine.h"
 #include "core/engine/simulation.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 constexpr double kLargestStep = 0.5, kSmallestStep = 1e-5;  // s, tried
@@ -233,4 +233,4 @@ void hold_to_cells(CaseResult& result) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

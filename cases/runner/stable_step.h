@@ -4,7 +4,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // Over `horizon` seconds, to 1 % by bisection in log dt. The limit is ragged: steps above the first bad one may hold
 // again by luck. So it is the largest below which none tried is bad, steps being tried 3 % apart, or 20 % (and bisected
@@ -25,4 +25,4 @@ StableStep largest_stable_dt(const Engine& engine, const Settings& settings, con
 // that blew up, tunnelled or were invalid.
 void hold_to_cells(CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

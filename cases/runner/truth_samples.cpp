@@ -2,7 +2,7 @@
 
 #include "core/engine/simulation.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 void TruthOnSteps::keep(const Truth& truth, double dt, double duration, std::size_t bodies) {
   constexpr double kMostBytes = 128e6;
@@ -38,4 +38,4 @@ TruthSamples TruthOnSteps::at_samples_of(const Trajectory& trajectory, const Tru
   return samples;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

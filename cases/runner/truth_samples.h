@@ -6,7 +6,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 class TruthOnSteps {
  public:
@@ -26,4 +26,4 @@ class TruthOnSteps {
   std::map<double, Kept> by_dt_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

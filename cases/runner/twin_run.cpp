@@ -8,7 +8,7 @@
 #include "core/scene/contact_laws.h"
 #include "core/scene/turned.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 // No axis of the old world lies along one of a new world; otherwise the rotations are arbitrary. There are several,
@@ -162,4 +162,4 @@ SchemeFindings judge_scheme(const EngineTable& engines, const RunName& twin, con
   return findings;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

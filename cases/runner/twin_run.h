@@ -7,7 +7,7 @@
 #include "cases/results/results.h"
 #include "cases/runner/simulate.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // The run of the core that repeats this engine's scheme. There is none for the core's own schemes. There is none where
 // bodies can touch, because a step then exceeds its published formula, nor if the twin lacks a feature of the scene.
@@ -28,4 +28,4 @@ TwinRun run_twin(const EngineTable& engines, const RunName& twin, const Scene& s
 SchemeFindings judge_scheme(const EngineTable& engines, const RunName& twin, const JudgedRun& judged,
                             const Simulation& run, double duration);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

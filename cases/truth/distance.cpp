@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline truth {
 
 double distance_between(BodyColumns a, BodyColumns b) {
   double largest = 0;
@@ -15,4 +15,4 @@ double distance_between(BodyColumns a, BodyColumns b) {
   return largest;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

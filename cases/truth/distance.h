@@ -3,9 +3,9 @@
 
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // The largest distance [m] and angle [rad] between a body and the same one; infinite where either is not finite.
 double distance_between(BodyColumns a, BodyColumns b);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr double kBehind = 1e-12;  // of the bounding radius: points of the region's plane are not in front of it
@@ -158,4 +158,4 @@ std::unique_ptr<Truth> truth_over_ground(const Scene& scene, std::unique_ptr<Tru
   return truth;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -6,7 +6,7 @@
 
 #include "cases/truth/truth.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // The scene with a plane in place of each mesh or height field that has a flat region in front of all of its other
 // points: the one on which gravity presses most, and without gravity the largest.
@@ -16,4 +16,4 @@ Scene on_planes(const Scene& scene);
 // comes nearer to the border of such a region than its own size, or behind it. Throws InputError if one starts there.
 std::unique_ptr<Truth> truth_over_ground(const Scene& scene, std::unique_ptr<Truth> on_plane, double duration);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -6,7 +6,7 @@
 #include "core/dynamics/contact/contact_method.h"
 #include "core/world.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // One declaration and one row a truth that is solved; each is defined in the file of its name.
 Provenance events_provenance();
@@ -42,4 +42,4 @@ bool is_made_by(const std::string& truth, const RunName& run, const Scene& scene
   return row && row->is_made_like && row->is_made_like(run, scene);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -6,7 +6,7 @@
 #include "core/engine/run_name.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // A row of the table in provenance.cpp, for a truth that is solved and no closed form.
 struct Provenance {
@@ -25,4 +25,4 @@ bool is_made_by(const std::string& truth, const RunName& run, const Scene& scene
 // (runner/ensemble.h).
 bool is_made_like_ensembles(const RunName& run, const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

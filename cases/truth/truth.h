@@ -10,7 +10,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 class Truth {
  public:
@@ -40,4 +40,4 @@ const std::vector<TruthRow>& truths();  // alphabetical; "none" is not a row
 // The row's truth, or null for "none".
 std::unique_ptr<Truth> make_truth(const std::string& kind, const Scene& scene, double duration);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -8,7 +8,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // One declaration and one row a truth, alphabetical; each is defined in the file of its name.
 TruthRow asymmetric_top_truth();
@@ -41,33 +41,13 @@ TruthRow welded_truth();
 
 const std::vector<TruthRow>& truths() {
   static const std::vector<TruthRow> table = {
-      asymmetric_top_truth(),
-      axisymmetric_top_truth(),
-      bounce_truth(),
-      cardan_shaft_truth(),
-      events_truth(),
-      heavy_top_truth(),
-      line_impacts_truth(),
-      linkage_truth(),
-      oscillator_truth(),
-      pendulum_truth(),
-      pendulum_impacts_truth(),
-      planar_truth(),
-      principal_torque_truth(),
-      projectile_truth(),
-      pushed_truth(),
-      recording_truth(),
-      reference_truth(),
-      rolling_truth(),
-      round_on_plane_truth(),
-      slider_truth(),
-      sliding_truth(),
-      soft_bounce_truth(),
-      sprung_ball_truth(),
-      steady_precession_truth(),
-      toppling_truth(),
-      transmission_truth(),
-      welded_truth(),
+      asymmetric_top_truth(),   axisymmetric_top_truth(), bounce_truth(),           cardan_shaft_truth(),
+      events_truth(),           heavy_top_truth(),        line_impacts_truth(),     linkage_truth(),
+      oscillator_truth(),       pendulum_truth(),         pendulum_impacts_truth(), planar_truth(),
+      principal_torque_truth(), projectile_truth(),       pushed_truth(),           recording_truth(),
+      reference_truth(),        rolling_truth(),          round_on_plane_truth(),   slider_truth(),
+      sliding_truth(),          soft_bounce_truth(),      sprung_ball_truth(),      steady_precession_truth(),
+      toppling_truth(),         transmission_truth(),     welded_truth(),
   };
   return table;
 }
@@ -126,4 +106,4 @@ double horizon(const Truth& truth, double tolerance, double duration) {
   return within;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -2,8 +2,8 @@
 // An engine with matrix orientations adds nine elements, row by row.
 #pragma once
 
-namespace rigor {
+namespace rigor::inline engine {
 
 enum Column { kPosition = 0, kOrientation = 3, kVelocity = 7, kAngularVelocity = 10, kRotation = 13 };
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <memory_resource>
 
-namespace rigor {
+namespace rigor::inline engine {
 namespace {
 
 // Never destroyed, because its contents may live as long as the program.
 std::pmr::memory_resource& pool() {
   constexpr std::size_t kLargest = 1 << 16;  // bytes: six hundred bodies
-  static auto* all = new std::pmr::synchronized_pool_resource({.max_blocks_per_chunk = 0,
-                                                               .largest_required_pool_block = kLargest});
+  static auto* all =
+      new std::pmr::synchronized_pool_resource({.max_blocks_per_chunk = 0, .largest_required_pool_block = kLargest});
   return *all;
 }
 
@@ -44,4 +44,4 @@ BodyTableOf<kIsPadded>& BodyTableOf<kIsPadded>::operator=(BodyColumns source) {
 template class BodyTableOf<true>;
 template class BodyTableOf<false>;
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

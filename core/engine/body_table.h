@@ -11,7 +11,7 @@
 #include "core/engine/body_column.h"
 #include "core/engine/columns.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 struct BodyState {
   Vec3 position = Vec3::Zero();          // m, p_WB
@@ -129,4 +129,4 @@ extern template class BodyTableOf<false>;
 using BodyTable = BodyTableOf<true>;
 using KeptBodies = BodyTableOf<false>;
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -9,7 +9,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 // A world in another process.
 class RemoteRuns {
@@ -107,4 +107,4 @@ struct Capabilities {
   SavesState* state = nullptr;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

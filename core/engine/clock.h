@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace rigor {
+namespace rigor::inline engine {
 
 class Clock {
  public:
@@ -18,4 +18,4 @@ class Clock {
   std::int64_t steps_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -7,7 +7,7 @@
 #include <new>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline engine {
 
 inline constexpr std::size_t kCacheLine = 64;  // bytes
 inline constexpr std::size_t kRowsPerLine = kCacheLine / sizeof(double);
@@ -52,4 +52,4 @@ class Columns {
   std::size_t stride_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -8,7 +8,7 @@
 #include "core/engine/run_name.h"
 #include "core/scene/joint_traits.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 namespace {
 
 // The first need that the choice does not meet, among the needs that some choice of the option meets.
@@ -97,4 +97,4 @@ std::string why_unsupported(const EngineInfo& engine, const Settings& settings, 
   return "";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

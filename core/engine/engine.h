@@ -14,7 +14,7 @@
 #include "core/scene/features/features.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 // `matched` sets the engine to the scene's physics as truly as it can; `stock` leaves every setting as it ships.
 enum class Track { matched, stock };
@@ -154,4 +154,4 @@ std::string why_unsupported(const EngineInfo& engine, const Scene& scene, double
 // sentence names a choice that would work.
 std::string why_unsupported(const EngineInfo& engine, const Settings& settings, const Scene& scene, double dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

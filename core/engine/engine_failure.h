@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace rigor {
+namespace rigor::inline engine {
 
 enum class FailureKind { unsupported, diverged, crashed, timed_out, invalid };
 
@@ -19,4 +19,4 @@ class EngineFailure : public std::runtime_error {
   FailureKind kind_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

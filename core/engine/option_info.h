@@ -10,7 +10,7 @@
 
 #include "core/scene/features/features.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 enum class Track;
 
@@ -42,4 +42,4 @@ std::optional<std::string> default_value(const OptionInfo& option, Track track);
 // "0.5", "100, stock 1" or a rule in words. Empty if no default is known.
 std::string default_text(const OptionInfo& option);
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-namespace rigor {
+namespace rigor::inline engine {
 
 const OptionDefault& default_of(const OptionInfo& option, Track track) {
   return track == Track::stock && option.as_shipped ? *option.as_shipped : option.by_default;
@@ -58,4 +58,4 @@ std::optional<std::string> word_to_set(const Settings& settings, const OptionInf
   return word_option(settings, option);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -7,7 +7,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 bool is_named(const Settings& settings, const OptionInfo& option);
 
@@ -22,4 +22,4 @@ double number_option(const Settings& settings, const OptionInfo& option, double 
 std::optional<double> number_to_set(const Settings& settings, const OptionInfo& option);
 std::optional<std::string> word_to_set(const Settings& settings, const OptionInfo& option);
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -10,7 +10,7 @@
 #include "core/base/names_of.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 namespace {
 
 constexpr const char* kForm = "ENGINE[:METHOD][,key=value...][@TRACK]";
@@ -110,4 +110,4 @@ RunName parse_run_name(const std::string& text, const std::vector<EngineInfo>& e
   return run;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -6,7 +6,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 struct RunName {
   std::string engine;
@@ -20,4 +20,4 @@ RunName parse_run_name(const std::string& text, const std::vector<EngineInfo>& e
 // The method a run's settings name.
 const MethodInfo& method_of(const EngineInfo& engine, const Settings& settings);
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -7,7 +7,7 @@
 #include "core/base/content_hash.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 namespace {
 
 constexpr std::string_view kTitle = "rigor saved state 1\n";
@@ -136,4 +136,4 @@ void ArchivesState::restore(const SavedState& state) {
   owner_.restore(state, [this](StateArchive& archive) { archive_state(archive); });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -11,7 +11,7 @@
 #include "core/engine/engine.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 class SavedBytes : public SavedState {
  public:
@@ -68,4 +68,4 @@ class ArchivesState : public SavesState {
 // For tests of damaged content: the same bytes with a checksum that fits them.
 std::string with_new_checksum(std::string bytes);
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -10,7 +10,7 @@
 #include "core/engine/engine.h"
 #include "core/engine/trajectory.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 struct NotFinite {
   double time;  // s, of the first sample with a number that is not finite
@@ -35,4 +35,4 @@ inline long steps_in(double duration, double dt) {
   return static_cast<long>(std::min(std::floor(duration / dt + kRounding), kMost));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

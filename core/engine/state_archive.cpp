@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 void StateArchive::refuse_size() {
   throw InputError("the saved state does not fit this world: one of its lists has another length");
@@ -56,4 +56,4 @@ std::size_t StateArchive::in_range(std::int64_t place, std::size_t size) {
   return static_cast<std::size_t>(place);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -16,7 +16,7 @@
 #include "core/engine/body_table.h"
 #include "core/engine/clock.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 class StateArchive {
  public:
@@ -154,4 +154,4 @@ class StateArchive {
   bool restores_ = false;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

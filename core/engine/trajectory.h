@@ -6,7 +6,7 @@
 #include "core/engine/body_table.h"
 #include "core/engine/capabilities.h"
 
-namespace rigor {
+namespace rigor::inline engine {
 
 struct Sample {
   double time;  // s
@@ -23,4 +23,4 @@ struct Trajectory {
   ContactRecords contacts = ContactRecords::not_asked_for;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline engine

@@ -2,7 +2,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // Of a body in W, or of a shape in its body's frame B.
 struct BodyPose {
@@ -10,4 +10,4 @@ struct BodyPose {
   Quat orientation = Quat::Identity();  // its own frame to the outer one
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -1,6 +1,6 @@
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 ContactLaws::ContactLaws(const Scene& scene) : default_(scene.contact_default) {
   // The first row of a pair holds, as in Scene::contact_law: emplace keeps what is there.
@@ -23,4 +23,4 @@ bool anything_can_touch(const Scene& scene) {
   return moving * (moving - 1) / 2 + moving * standing > apart;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -6,7 +6,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 class ContactLaws {
  public:
@@ -39,4 +39,4 @@ bool can_meet(const Body& a, const Body& b);
 // Whether any two bodies of the scene can touch. If not, an adapter need not look for contacts.
 bool anything_can_touch(const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

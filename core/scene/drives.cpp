@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 // The piece of a table in which t lies: its first row, or -1 before all.
@@ -91,4 +91,4 @@ double Motor::next_switch(double t, double end) const {
   return end;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // A function of time. Before its first time it has its first value, after its last time its last value.
 struct TimeTable {
@@ -71,4 +71,4 @@ struct Motor {
   double sample_at(double t) const { return std::floor((t - from) / servo->period + 1e-9); }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 // Finds the bridges of the graph of bodies and joints (R. E. Tarjan, "A note on finding the bridges of a graph", 1974).
@@ -78,4 +78,4 @@ class Bridges {
 
 std::vector<bool> joints_on_loops(const Scene& scene) { return Bridges(scene).joints_on_loops(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

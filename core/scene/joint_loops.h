@@ -5,9 +5,9 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // By joint: whether its two bodies stay connected without it. World and fixed bodies are one body.
 std::vector<bool> joints_on_loops(const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

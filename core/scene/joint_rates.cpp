@@ -8,7 +8,7 @@
 
 #include "core/scene/joints/axis_series.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 struct Motion {
@@ -131,4 +131,4 @@ std::string why_rates_break(const Scene& scene, const Joint& joint) {
                      scene.body_name(joint.a), scene.body_name(joint.b), rates.speed, rates.turn_rate);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

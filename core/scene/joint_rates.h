@@ -4,7 +4,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct JointRates {
   double speed = 0;      // m/s: of the shared point, across the slider's axis, along the distance
@@ -21,4 +21,4 @@ inline constexpr double kNoRate = 1e-9;  // m/s, rad/s for each 1 + the fastest 
 std::string why_rates_break(const Scene& scene, const Joint& joint);
 std::string why_rates_break(const Scene& scene, const Coupling& coupling);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 // Bodies that joints connect, as trees of which each knows its root. The world, and with it every fixed body, is the
@@ -67,4 +67,4 @@ std::vector<Need> joint_traits_of(const Scene& scene) {
   return traits;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

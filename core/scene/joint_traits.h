@@ -7,9 +7,9 @@
 
 #include "core/scene/features/features.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // Each once, with the first joint that asks for it.
 std::vector<Need> joint_traits_of(const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

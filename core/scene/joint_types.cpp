@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 template <typename Type>
@@ -31,4 +31,4 @@ const std::vector<JointTypeInfo>& joint_types() {
   return rows;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

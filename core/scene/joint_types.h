@@ -17,7 +17,7 @@
 #include "core/scene/joints/slider_joint.h"
 #include "core/scene/joints/universal_joint.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 using JointType = std::variant<BallJoint, CompoundAxis, CompoundJoint, CylindricalJoint, DistanceJoint, FixedJoint,
                                HingeJoint, PlanarJoint, ScrewJoint, SliderJoint, UniversalJoint>;
@@ -71,4 +71,4 @@ struct LackingJoints : LackingJoint<Result, Types>... {
   using LackingJoint<Result, Types>::operator()...;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

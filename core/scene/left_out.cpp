@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 std::string word_of(LossKind kind) {
   return kind == LossKind::visual ? "visual" : kind == LossKind::assumed ? "assumed" : "physical";
@@ -62,4 +62,4 @@ std::string not_the_same_robot(const std::vector<Loss>& losses) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline scene {
 
 enum class LossKind {
   visual,    // changes no motion: what is only drawn, measured or controlled from outside
@@ -52,4 +52,4 @@ std::string sentence_of(const Loss& loss);
 // "not the same robot: armature (3 times), range", of the physical ones; "" without any.
 std::string not_the_same_robot(const std::vector<Loss>& losses);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

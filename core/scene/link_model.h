@@ -10,7 +10,7 @@
 #include "core/scene/left_out.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct LinkInertial {
   double mass = 0;              // kg
@@ -92,4 +92,4 @@ struct LinkModel {
   LeftOut left_out;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 const Vec3* first_of_kind(const Joint& joint, JointVector wanted) {
@@ -84,4 +84,4 @@ const Vec3* free_axis(const Joint& joint) {
   return joint_types()[joint.type.index()].coordinate == FreeCoordinate::none ? nullptr : axis_of(joint);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

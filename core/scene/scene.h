@@ -16,7 +16,7 @@
 #include "core/scene/joint_types.h"
 #include "core/scene/shape_types.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 inline constexpr int kWorld = -1;  // stands where a body's index would: the world itself, its points in W
 inline constexpr double kInfiniteFriction = std::numeric_limits<double>::infinity();
@@ -182,4 +182,4 @@ const Vec3* axis_of(const Joint& joint);
 // The axis of the joint's free coordinate, in W at t = 0; null if the joint has none.
 const Vec3* free_axis(const Joint& joint);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

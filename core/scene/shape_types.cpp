@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 template <typename Type>
@@ -101,4 +101,4 @@ BodyPose inverse(const BodyPose& pose) {
   return {-(back * pose.position), back};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -18,7 +18,7 @@
 #include "core/scene/shapes/plane.h"
 #include "core/scene/shapes/sphere.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 using Shape = std::variant<Box, Capsule, Compound, Convex, Cylinder, Ellipsoid, Heightfield, Mesh, Plane, Sphere>;
 
@@ -92,4 +92,4 @@ Shape scaled_shape(const Shape& shape, double factor);
 BodyPose operator*(const BodyPose& a, const BodyPose& b);
 BodyPose inverse(const BodyPose& pose);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -7,7 +7,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // The middle [rad] between a hinge's two limits that are less than a turn apart. Within half a turn of it, springs and
 // servos count whole turns. Null for any other joint: there a spring's angle lies between -pi and pi, and a servo takes
@@ -20,4 +20,4 @@ inline std::optional<double> middle_of_turn(const Joint& joint) {
 // Whether a servo of the joint turns it towards its target by at most half a turn.
 inline bool takes_the_shorter_way(const Joint& joint) { return turns(joint) && !middle_of_turn(joint); }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

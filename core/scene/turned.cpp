@@ -1,6 +1,6 @@
 #include "core/scene/turned.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 void turn_body(Body& body, const Quat& turn) {
@@ -32,4 +32,4 @@ Scene turned(Scene scene, const Quat& turn) {
   return scene;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -4,9 +4,9 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // `turn` takes the old world frame's vectors to the new one's.
 Scene turned(Scene scene, const Quat& turn);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -11,7 +11,7 @@
 #include "core/base/eigen_of.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 using Fault = std::optional<SceneFault>;
@@ -276,4 +276,4 @@ void validate(const Scene& scene) {
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -8,7 +8,7 @@
 #include "core/base/unit_vector.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // The fault of a row, and its key as the case file names it; "" for the row as a whole.
 struct SceneFault {
@@ -42,4 +42,4 @@ std::string why_no_inertia(const Mat3& inertia);
 // Throws InputError, "body 'cube': inertia: ...", for the first row that no scene can have, and for names given twice.
 void validate(const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -11,7 +11,7 @@
 #include "core/scene/turn_window.h"
 #include "core/scene/validate.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 using Fault = std::optional<SceneFault>;
@@ -262,4 +262,4 @@ Fault fault_of_circle(const std::vector<Coupling>& couplings, std::size_t last, 
   return {};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

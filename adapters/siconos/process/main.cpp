@@ -16,7 +16,7 @@
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 namespace {
 
 using Json = nlohmann::json;
@@ -166,6 +166,6 @@ int serve() {
 }
 
 }  // namespace
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos
 
 int main() { return rigor::siconos::serve(); }

@@ -6,7 +6,7 @@
 
 #include "core/dynamics/model/system.h"
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 
 LoadedBody::LoadedBody(Bodies& all, int index, SP::SiconosVector q, SP::SiconosVector twist, double mass,
                        SP::SimpleMatrix inertia)
@@ -89,4 +89,4 @@ const Mat6& Bodies::slope(int body) {
   return slopes_[static_cast<std::size_t>(body)];
 }
 
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos

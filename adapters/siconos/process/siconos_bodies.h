@@ -11,7 +11,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 
 inline SP::SiconosVector vector_of(const Vec3& v) {
   const auto out = std::make_shared<SiconosVector>(3);
@@ -67,4 +67,4 @@ class Bodies {
   int last_wrench_ = 0, last_slope_ = 0;
 };
 
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos

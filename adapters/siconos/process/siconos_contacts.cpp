@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 
 namespace {
 
@@ -116,4 +116,4 @@ void Contacts::keep(int a, int b, const ManifoldPoint& point, Simulation& simula
   system_b ? simulation.link(kept.interaction, system_a, system_b) : simulation.link(kept.interaction, system_a);
 }
 
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos

@@ -13,7 +13,7 @@
 #include "core/engine/capabilities.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 
 class ContactPoint;
 
@@ -51,4 +51,4 @@ class Contacts : public InteractionManager {
   bool is_needed_;
 };
 
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos

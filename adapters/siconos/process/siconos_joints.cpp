@@ -8,7 +8,7 @@
 #include <SiconosVector.hpp>
 #include <stdexcept>
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 namespace {
 
 SP::SiconosVector pose_at_start(const Scene& scene, int body) {
@@ -72,4 +72,4 @@ void link_joints(const Scene& scene, const Bodies& bodies, NonSmoothDynamicalSys
   }
 }
 
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos

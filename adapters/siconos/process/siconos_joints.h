@@ -6,9 +6,9 @@
 
 #include "adapters/siconos/process/siconos_bodies.h"
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 
 // Links each joint of the scene, as it was at t = 0, into the system.
 void link_joints(const Scene& scene, const Bodies& bodies, NonSmoothDynamicalSystem& into);
 
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos

@@ -16,7 +16,7 @@
 #include "adapters/siconos/process/siconos_joints.h"
 #include "adapters/siconos/siconos_matched.h"
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 namespace {
 
 // The last result of Siconos's contact solver: 0 if it converged. Siconos has one such place per process.
@@ -162,4 +162,4 @@ std::vector<std::pair<std::string, std::string>> SiconosWorld::settings_in_force
   return in_force;
 }
 
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos

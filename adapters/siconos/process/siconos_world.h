@@ -11,7 +11,7 @@
 #include "adapters/siconos/process/siconos_contacts.h"
 #include "core/engine/clock.h"
 
-namespace rigor::siconos {
+namespace rigor::inline adapters::siconos {
 
 struct StepSettings {
   double theta = 0.5;  // weight of the step's end
@@ -55,4 +55,4 @@ class SiconosWorld {
   Clock clock_;
 };
 
-}  // namespace rigor::siconos
+}  // namespace rigor::inline adapters::siconos

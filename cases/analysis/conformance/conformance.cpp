@@ -10,7 +10,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace conformance {
 namespace {
 
@@ -143,4 +143,4 @@ CheckResult check_result(const ConformanceCheck& check, const Trial& trial) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -8,7 +8,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct CheckResult {
   enum class Answer { holds, broken, not_asked } answer = Answer::holds;
@@ -34,4 +34,4 @@ const std::vector<ConformanceCheck>& conformance_checks();  // in the order in w
 // Runs the check. An engine that throws or does not answer breaks it.
 CheckResult check_result(const ConformanceCheck& check, const Trial& trial);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

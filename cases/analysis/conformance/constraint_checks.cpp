@@ -8,7 +8,7 @@
 
 #include "cases/analysis/conformance/trial.h"
 
-namespace rigor::conformance {
+namespace rigor::inline analysis::conformance {
 namespace {
 
 constexpr double kStep = 1.0 / 240;  // s
@@ -218,4 +218,4 @@ std::vector<ConformanceCheck> constraint_checks() {
           {"contacts", "each pair of shapes that is declared rests at the right height", bodies_rest_on_each_other}};
 }
 
-}  // namespace rigor::conformance
+}  // namespace rigor::inline analysis::conformance

@@ -5,7 +5,7 @@
 
 #include "cases/analysis/conformance/trial.h"
 
-namespace rigor::conformance {
+namespace rigor::inline analysis::conformance {
 namespace {
 
 constexpr double kContactStep = 1.0 / 240;  // s
@@ -89,4 +89,4 @@ std::vector<ConformanceCheck> contact_checks() {
            contact_forces_move_the_bodies}};
 }
 
-}  // namespace rigor::conformance
+}  // namespace rigor::inline analysis::conformance

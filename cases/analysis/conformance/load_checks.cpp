@@ -9,7 +9,7 @@
 #include "core/dynamics/model/energy.h"
 #include "core/engine/run_name.h"
 
-namespace rigor::conformance {
+namespace rigor::inline analysis::conformance {
 namespace {
 
 CheckResult a_force_acts_while_it_is_there(const Trial& trial) {
@@ -127,4 +127,4 @@ std::vector<ConformanceCheck> load_checks() {
           {"symplectic", "what says that it is symplectic keeps its energy over long runs", symplectic_is_as_it_says}};
 }
 
-}  // namespace rigor::conformance
+}  // namespace rigor::inline analysis::conformance

@@ -9,7 +9,7 @@
 #include "core/engine/run_name.h"
 #include "core/scene/turned.h"
 
-namespace rigor::conformance {
+namespace rigor::inline analysis::conformance {
 namespace {
 
 BodyState truth_at(const Scene& scene, double t) {
@@ -156,4 +156,4 @@ std::vector<ConformanceCheck> motion_checks() {
           {"turned-frame", "a scene turned about moves in the same way", a_turned_world_turns_the_motion}};
 }
 
-}  // namespace rigor::conformance
+}  // namespace rigor::inline analysis::conformance

@@ -8,7 +8,7 @@
 #include "core/base/near_match.h"
 #include "core/engine/engine.h"
 
-namespace rigor::conformance {
+namespace rigor::inline analysis::conformance {
 namespace {
 
 // A word of a later version is ignored. A mistyped word is rejected, because the engine would lack that feature.
@@ -213,4 +213,4 @@ std::vector<ConformanceCheck> seam_checks() {
            what_is_not_declared_is_refused}};
 }
 
-}  // namespace rigor::conformance
+}  // namespace rigor::inline analysis::conformance

@@ -5,7 +5,7 @@
 
 #include "cases/analysis/conformance/conformance.h"
 
-namespace rigor::conformance {
+namespace rigor::inline analysis::conformance {
 
 CheckResult holds();
 CheckResult not_asked(const std::string& why);
@@ -61,4 +61,4 @@ std::vector<ConformanceCheck> load_checks();
 std::vector<ConformanceCheck> constraint_checks();
 std::vector<ConformanceCheck> contact_checks();
 
-}  // namespace rigor::conformance
+}  // namespace rigor::inline analysis::conformance

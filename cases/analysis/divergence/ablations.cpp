@@ -11,7 +11,7 @@
 #include "core/scene/contact_laws.h"
 #include "core/scene/turn_window.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 enum Rank { kFriction, kRestitution, kLimit, kDrive, kContact, kGyroscopic, kForce, kSpring, kJoint, kGravity };
@@ -256,4 +256,4 @@ std::vector<Ablation> ablations_of(const AblatedStep& step, std::size_t most) {
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

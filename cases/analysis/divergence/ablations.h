@@ -9,7 +9,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct Ablation {
   std::string what;    // "the contact of 'ball' and 'ground'"
@@ -35,4 +35,4 @@ struct AblatedStep {
 // At most `most`.
 std::vector<Ablation> ablations_of(const AblatedStep& step, std::size_t most);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -5,7 +5,7 @@
 
 #include "cases/analysis/divergence/ablations.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr std::size_t kMostParts = 60;  // taken away, one at a time: some tenths of a second
@@ -120,4 +120,4 @@ std::vector<Cause> find_causes(const RunPair& pair, const Scene& scene, const Mo
   return causes;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

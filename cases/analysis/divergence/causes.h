@@ -8,7 +8,7 @@
 
 #include "cases/analysis/divergence/injections.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct Evidence {
   std::string what, detail;  // as in Ablation
@@ -39,4 +39,4 @@ std::vector<Cause> find_causes(const RunPair& pair, const Scene& scene, const Mo
                                const PartingBounds& bounds, const Parting& parting,
                                const std::vector<Injection>& injections);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

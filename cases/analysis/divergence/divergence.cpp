@@ -13,7 +13,7 @@
 #include "core/base/json.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using Side = RunPair::Side;
@@ -177,4 +177,4 @@ Divergence diverge(const EngineTable& engines, const Case& definition, const Div
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -11,7 +11,7 @@
 #include "cases/analysis/divergence/parting.h"
 #include "cases/analysis/divergence/swap_search.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // The distance of both runs from the case's truth, of the body that parts, at that instant.
 struct DivergenceTruth {
@@ -46,4 +46,4 @@ struct Divergence {
 Divergence diverge(const EngineTable& engines, const Case& definition, const DivergingRun& a, const DivergingRun& b,
                    const PartingBounds& bounds, const DivergenceOptions& options);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

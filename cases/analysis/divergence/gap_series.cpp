@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr std::size_t kGroupsOnEachSide = 200;  // a plot is some 700 pixels wide
@@ -38,4 +38,4 @@ GapSeries gap_series(const MotionView& a, const MotionView& b, const Scene& scen
   return series;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -7,7 +7,7 @@
 
 #include "cases/analysis/divergence/parting.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // At each time the largest share of a bound that any moving body has.
 struct GapSeries {
@@ -20,4 +20,4 @@ struct GapSeries {
 GapSeries gap_series(const MotionView& a, const MotionView& b, const Scene& scene, const PartingBounds& bounds,
                      double seconds_per_sample, const std::optional<Parting>& parting);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

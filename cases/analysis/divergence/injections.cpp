@@ -7,7 +7,7 @@
 
 #include "cases/analysis/divergence/rebased_scene.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr std::size_t kEven = 400, kSudden = 100;  // steps that are looked at if there are too many for all
@@ -200,4 +200,4 @@ std::vector<Injection> largest_injections(const Injections& injections, std::siz
   return chosen;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

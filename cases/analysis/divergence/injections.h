@@ -9,7 +9,7 @@
 #include "cases/analysis/divergence/parting.h"
 #include "cases/analysis/divergence/run_pair.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // The difference that one common step adds. Shares are of the bounds, after free motion until the runs part.
 struct Injection {
@@ -46,4 +46,4 @@ std::vector<std::shared_ptr<const Scene>> scenes_at(const Scene& scene, const Mo
 // The first of several that are alike in four digits counts as larger.
 std::vector<Injection> largest_injections(const Injections& injections, std::size_t most);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -4,7 +4,7 @@
 #include "cases/analysis/mistakes/motions.h"
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 class MotionView {
  public:
@@ -30,4 +30,4 @@ class MotionView {
   std::size_t bodies_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

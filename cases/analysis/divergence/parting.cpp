@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // A repeat that differs by a third of what two runs differ may explain that difference by chance.
@@ -130,4 +130,4 @@ std::optional<Parting> find_parting(const MotionView& a, const MotionView& b, co
   return {};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -7,7 +7,7 @@
 #include "cases/analysis/divergence/motion_view.h"
 #include "cases/analysis/divergence/parting_bounds.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // B's state less A's; all in W.
 struct BodyGap {
@@ -54,4 +54,4 @@ std::optional<Parting> find_parting(const MotionView& a, const MotionView& b, co
                                     const PartingBounds& bounds, double seconds_per_sample,
                                     const std::vector<double>& spread);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 struct BoundedQuantity {
@@ -134,4 +134,4 @@ PartingBounds parse_parting_bounds(const std::vector<std::string>& texts) {
   return bounds;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -7,7 +7,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Infinite where a quantity is not looked at.
 struct PartingBounds {
@@ -29,4 +29,4 @@ PartingBounds default_parting_bounds(const Scene& scene);
 // Throws InputError for a text that is no bound, for one without a unit, and for two of one quantity.
 PartingBounds parse_parting_bounds(const std::vector<std::string>& texts);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

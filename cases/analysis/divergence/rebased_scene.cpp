@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numbers>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr double kWholeTurn = 2 * std::numbers::pi;
@@ -140,4 +140,4 @@ Scene rebased(const Scene& scene, const std::vector<BodyState>& bodies, const st
   return out;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

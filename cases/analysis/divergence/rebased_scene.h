@@ -8,7 +8,7 @@
 #include "core/scene/joints/axis_series.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Follows the coordinates of a scene's joints through a motion, with whole turns of hinges. Each axis of a compound
 // joint has its own.
@@ -32,4 +32,4 @@ class JointCoordinates {
 Scene rebased(const Scene& scene, const std::vector<BodyState>& bodies, const std::vector<double>& coordinates,
               double t);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/engine/simulation.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 CommonSteps common_steps(const StepSize& a, const StepSize& b, double duration) {
   constexpr double kRounding = 1e-9;  // of a step, as where steps are counted
@@ -36,4 +36,4 @@ std::vector<StateSeries> RunPair::motions(const std::vector<MotionTask>& tasks) 
   return simulate_motions(tasks, engines_, options_.jobs, options_.limit, options_.on_motion);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 #include "cases/analysis/mistakes/motions.h"
 #include "cases/case/case.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct DivergingRun {
   RunName name;
@@ -54,4 +54,4 @@ class RunPair {
   DivergenceOptions options_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

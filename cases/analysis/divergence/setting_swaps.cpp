@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using Side = RunPair::Side;
@@ -154,4 +154,4 @@ void apply_swap(const SettingSwap& swap, DivergingRun& a, DivergingRun& b, const
   run.name = named(run.name.engine, settings, engines);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -7,7 +7,7 @@
 #include "cases/analysis/divergence/run_pair.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct SettingSwap {
   enum class Kind { option, method, track, step };
@@ -29,4 +29,4 @@ std::vector<SettingSwap> swaps_between(const DivergingRun& a, const DivergingRun
 // Makes the changes of a pair of runs. Throws InputError for one that the method does not take.
 void apply_swap(const SettingSwap& swap, DivergingRun& a, DivergingRun& b, const EngineTable& engines);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

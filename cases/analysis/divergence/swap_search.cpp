@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using Side = RunPair::Side;
@@ -211,4 +211,4 @@ SwapSearch search_swaps(const RunPair& pair, const Scene& scene, double duration
   return search;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

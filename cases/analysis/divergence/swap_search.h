@@ -9,7 +9,7 @@
 #include "cases/analysis/divergence/parting.h"
 #include "cases/analysis/divergence/setting_swaps.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct TriedSwap {
   std::vector<SettingSwap> swaps;  // one, or a pair
@@ -31,4 +31,4 @@ SwapSearch search_swaps(const RunPair& pair, const Scene& scene, double duration
                         const SettingsInForce& in_b, const PartingBounds& bounds, const Parting& parting,
                         const DivergenceOptions& options);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

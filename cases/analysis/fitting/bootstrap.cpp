@@ -7,7 +7,7 @@
 
 #include "core/base/eigen_of.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -198,4 +198,4 @@ Bootstrap bootstrap_around(const BoxPoint& best, const LossesOfTrials& losses, u
   return result;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -8,7 +8,7 @@
 
 #include "cases/analysis/fitting/minimizer.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct BootstrapAxis {
   double low = 0, high = 1;  // of the 95 % interval, in the box
@@ -25,4 +25,4 @@ using LossesOfTrials = std::function<std::vector<std::vector<double>>(const std:
 
 Bootstrap bootstrap_around(const BoxPoint& best, const LossesOfTrials& losses, unsigned long seed);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/engine/engine_failure.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 SweepInput sweep_of(const FitInput& input) {
@@ -231,4 +231,4 @@ std::vector<TrialResiduals> FitProbe::residuals(const std::vector<StartedTrial>&
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -11,7 +11,7 @@
 #include "cases/analysis/sweep/sweep.h"
 #include "cases/runner/process_pool.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct FitTrial {
   std::size_t of_case = 0, trial = 0;
@@ -57,4 +57,4 @@ class FitProbe {
   std::size_t points_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -12,7 +12,7 @@
 #include "cases/case/recording/recording.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr std::size_t kStarts = 3;
@@ -318,4 +318,4 @@ FitResult fit(const FitInput& input, const EngineTable& engines, const Vocabular
   return Fitting(input, engines, vocabulary).run();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -14,7 +14,7 @@
 #include "cases/case/vocabulary.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct FitInput {
   std::vector<Case> cases;  // each with one step
@@ -63,4 +63,4 @@ inline constexpr std::size_t kFewestTrials = 5;
 // Throws InputError for an unknown key, with a near match, and for values that the cases cannot have.
 FitResult fit(const FitInput& input, const EngineTable& engines, const Vocabulary& vocabulary);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

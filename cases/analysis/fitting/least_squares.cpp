@@ -5,7 +5,7 @@
 
 #include "core/base/eigen_of.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -143,4 +143,4 @@ SquaresMinimum LeastSquares::minimise(const Vector& start, long held, int most_s
   return best;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Returns the residuals at each point; an empty vector where there is no result. All points have equally many.
 using ResidualsAt = std::function<std::vector<Eigen::VectorXd>(const std::vector<Eigen::VectorXd>& points)>;
@@ -36,4 +36,4 @@ class LeastSquares {
   Eigen::VectorXd steps_;  // of the differences
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

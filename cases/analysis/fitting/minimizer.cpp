@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // A point outside the box stands for its mirror image inside. Moved to a face, it would flatten the simplex.
@@ -151,4 +151,4 @@ std::vector<BoxMinimum> distinct_starts(std::vector<BoxMinimum> points, std::siz
   return starts;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 using BoxPoint = std::vector<double>;  // each from 0 to 1
 
@@ -32,4 +32,4 @@ BoxMinimum nelder_mead(const std::function<double(const BoxPoint&)>& function, c
 // The best `most` points, best first, each at least `apart` from better ones along some axis.
 std::vector<BoxMinimum> distinct_starts(std::vector<BoxMinimum> points, std::size_t most, double apart);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 #include "core/base/eigen_of.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -282,4 +282,4 @@ class Profiling {
 
 Profile profile_of(const ProfileInput& input) { return Profiling(input).run(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

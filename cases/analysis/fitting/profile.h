@@ -9,7 +9,7 @@
 
 #include "cases/analysis/fitting/least_squares.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct ProfileInput {
   ResidualsAt residuals;                // of values from 0 to 1, in standard deviations of the noise
@@ -41,4 +41,4 @@ struct Profile {
 // Throws InputError if no start has a result.
 Profile profile_of(const ProfileInput& input);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -4,7 +4,7 @@
 
 #include "cases/case/recording/recording.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // Those of a body that moves: shift and speed of a measured position, turn and its rate of a measured orientation.
@@ -146,4 +146,4 @@ std::vector<int> StartedRuns::kinds() const {
   return kinds;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

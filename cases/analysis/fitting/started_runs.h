@@ -10,7 +10,7 @@
 #include "cases/analysis/fitting/fit_probe.h"
 #include "cases/analysis/fitting/least_squares.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 class StartedRuns {
  public:
@@ -42,4 +42,4 @@ class StartedRuns {
   std::map<std::vector<double>, TrialResiduals> kept_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

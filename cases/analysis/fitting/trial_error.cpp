@@ -4,7 +4,7 @@
 #include "cases/metrics/measures/recorded/recorded_gaps.h"
 #include "cases/runner/simulate.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 class Gaps {
@@ -64,4 +64,4 @@ TrialError trial_error(const Case& of_trial, const Truth& truth, const Engine& e
   return against_computed(run.trajectory, truth);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -7,7 +7,7 @@
 #include "cases/truth/truth.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct TrialError {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -24,4 +24,4 @@ struct TrialError {
 TrialError trial_error(const Case& of_trial, const Truth& truth, const Engine& engine, const Settings& settings,
                        double dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

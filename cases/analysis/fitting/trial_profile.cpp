@@ -8,7 +8,7 @@
 #include "cases/analysis/fitting/started_runs.h"
 #include "cases/case/recording/recording.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 std::vector<std::string> caveats_of(const Profile& profile) {
@@ -73,4 +73,4 @@ TrialProfile profile_of_trials(FitProbe& probe, const FitTrials& trials, const s
   return result;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

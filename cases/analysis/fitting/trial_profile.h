@@ -7,7 +7,7 @@
 #include "cases/analysis/fitting/fit_probe.h"
 #include "cases/analysis/fitting/profile.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct TrialProfile {
   BoxPoint best;                                  // the most likely values
@@ -20,4 +20,4 @@ struct TrialProfile {
 // `minima`: where to search for the best values, best first.
 TrialProfile profile_of_trials(FitProbe& probe, const FitTrials& trials, const std::vector<BoxPoint>& minima);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

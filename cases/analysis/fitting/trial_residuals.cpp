@@ -7,7 +7,7 @@
 #include "cases/truth/solved/pose_interpolation.h"
 #include "core/base/rotation_vector.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // The run's state at t, which lies between its samples `n` and n + 1.
@@ -60,4 +60,4 @@ void move_start(Body& body, const StartShift& shift) {
   body.orientation = (rotation_by(shift.turn) * body.orientation).normalized();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

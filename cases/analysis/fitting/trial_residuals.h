@@ -7,7 +7,7 @@
 #include "cases/truth/recorded/recorded_motion.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Gaps in standard deviations of the noise, three components for each sample of each body that moves, in W. Each
 // measured sample counts once, so that equal numbers say equally much with every step of the run.
@@ -27,4 +27,4 @@ struct StartShift {
 };
 void move_start(Body& body, const StartShift& shift);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr std::size_t kTurn = 3, kSpeed = 12, kSpin = 15;  // where the groups begin
@@ -124,4 +124,4 @@ std::vector<Observation> observations_of(const std::vector<View>& views, const s
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

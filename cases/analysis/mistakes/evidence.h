@@ -10,7 +10,7 @@
 
 #include "cases/analysis/mistakes/views.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Root mean squares over samples and bodies. Each group of columns is divided by the scale of the motion without
 // mistakes: the longest path, a whole turn, the highest speed and the highest spin.
@@ -58,4 +58,4 @@ class Observation {
 std::vector<Observation> observations_of(const std::vector<View>& views, const std::vector<Sight>& bases,
                                          const std::vector<ProbeScene>& probes);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

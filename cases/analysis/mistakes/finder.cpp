@@ -9,7 +9,7 @@
 
 #include "adapters/faults/faults.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // A mistake is named if it explains at least this share. The rest is a root mean square: 0.15 is one observation in
@@ -343,4 +343,4 @@ MistakeReport MistakeFinder::report(const Engine& engine) {
   return report;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 #include "cases/analysis/mistakes/laws.h"
 #include "cases/analysis/mistakes/mistake_table.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct MistakeReport {
   enum class Verdict {
@@ -74,4 +74,4 @@ class MistakeFinder {
   mutable std::size_t motions_ = 0;             // so far
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

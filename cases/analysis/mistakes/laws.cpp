@@ -5,7 +5,7 @@
 
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 const std::string kLinear = "linear momentum", kAngular = "angular momentum";
@@ -115,4 +115,4 @@ std::vector<LawDrift> LawWatch::drifts() const {
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 #include "cases/analysis/mistakes/motions.h"
 #include "cases/analysis/mistakes/probes.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct LawDrift {
   std::string law = "";   // "linear momentum", "angular momentum"
@@ -41,4 +41,4 @@ class LawWatch {
   std::map<std::string, LawDrift> drifts_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

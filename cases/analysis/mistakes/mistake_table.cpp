@@ -2,7 +2,7 @@
 
 #include "adapters/faults/faults.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 std::vector<Hypothesis> known_mistakes() {
   std::vector<Hypothesis> all;
@@ -39,4 +39,4 @@ Hypothesis MistakeTable::pair(std::size_t first, std::size_t second) const {
   return both;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

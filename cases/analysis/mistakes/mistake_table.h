@@ -6,7 +6,7 @@
 
 #include "cases/analysis/mistakes/ranking.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Every mistake of adapters/faults/faults.h, without sights.
 std::vector<Hypothesis> known_mistakes();
@@ -23,4 +23,4 @@ struct MistakeTable {
   Hypothesis pair(std::size_t first, std::size_t second) const;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -13,7 +13,7 @@
 #include "cases/runner/process_pool.h"
 #include "cases/runner/simulate.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 void append_state(BodyColumns bodies, std::vector<double>& into) {
@@ -140,4 +140,4 @@ std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, 
   return motions;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 #include "adapters/engines.h"
 #include "adapters/faults/fault.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // The columns of each body: position, rotation matrix by rows, velocity, angular velocity. A matrix, unlike a
 // quaternion, has no sign to choose.
@@ -34,4 +34,4 @@ struct StateSeries {
 std::vector<StateSeries> simulate_motions(const std::vector<MotionTask>& tasks, const EngineTable& engines, int at_once,
                                           double limit, const std::function<void()>& on_motion = {});
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

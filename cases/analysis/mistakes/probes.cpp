@@ -5,7 +5,7 @@
 
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 struct Row {
@@ -103,4 +103,4 @@ std::vector<ProbeScene> probes_of(const std::vector<Case>& cases) {
   return probes;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

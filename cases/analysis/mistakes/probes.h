@@ -7,7 +7,7 @@
 
 #include "cases/case/suite.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct ProbeScene {
   std::string id;  // of its case
@@ -23,4 +23,4 @@ std::vector<ProbeScene> probes_of_suite(const Vocabulary& vocabulary);
 // The given cases, each cut to a length that can be run a hundred times.
 std::vector<ProbeScene> probes_of(const std::vector<Case>& cases);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

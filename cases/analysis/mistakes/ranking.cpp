@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // A few roundings in single precision, and some hundred steps of them.
@@ -271,4 +271,4 @@ std::set<std::pair<std::size_t, std::size_t>> Trace::likely_pairs(const std::vec
   return pairs;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 
 #include "cases/analysis/mistakes/evidence.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // A mistake, or two together, and its motion in each view.
 struct Hypothesis {
@@ -90,4 +90,4 @@ class Trace {
   bool is_single_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

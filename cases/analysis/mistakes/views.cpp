@@ -7,7 +7,7 @@
 #include "core/scene/contact_laws.h"
 #include "core/world.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr long kSamples = 30;
@@ -106,4 +106,4 @@ Sight seen(const View& view, const std::vector<StateSeries>& motions, std::size_
   return sight;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

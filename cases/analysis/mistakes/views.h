@@ -16,7 +16,7 @@
 #include "cases/analysis/mistakes/probes.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct View {
   enum class Kind { twin, extrapolated, same_method, accurate } kind;
@@ -54,4 +54,4 @@ std::vector<MotionTask> nudged_tasks(std::vector<MotionTask> tasks);
 // The sight from the view's motions, which begin at `first`.
 Sight seen(const View& view, const std::vector<StateSeries>& motions, std::size_t first);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -9,7 +9,7 @@
 #include "cases/analysis/repeats/reordered_scene.h"
 #include "core/dynamics/kernels/kernels.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 RecordedStates run_again(const RepeatedRun& run, const Settings& settings) {
@@ -198,4 +198,4 @@ const std::vector<RepeatChange>& repeat_changes() {
   return table;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -9,7 +9,7 @@
 #include "cases/analysis/repeats/recorded_states.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // A run that is repeated.
 struct RepeatedRun {
@@ -41,4 +41,4 @@ struct RepeatChange {
 
 const std::vector<RepeatChange>& repeat_changes();
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

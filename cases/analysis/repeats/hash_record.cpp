@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr int kRecordVersion = 2;    // 1: each hash was made in one chain
@@ -98,4 +98,4 @@ const HashRecord& matching_record(const std::vector<HashRecord>& records, const 
   return *row;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 #include "core/engine/engine.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct HashRecord {
   std::string case_id;
@@ -31,4 +31,4 @@ std::vector<HashRecord> read_hash_records(const std::string& path);
 const HashRecord& matching_record(const std::vector<HashRecord>& records, const HashRecord& own,
                                   const std::string& path);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

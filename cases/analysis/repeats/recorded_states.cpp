@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 void RecordedStates::add(const World& world) {
   thread_local Snapshot now;  // read at each step: it keeps its memory
@@ -113,4 +113,4 @@ std::vector<std::uint64_t> hashes_of(const RecordedStates& states) {
   return hashes;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -8,7 +8,7 @@
 
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // Thirteen columns of each body, step by step, the state at t = 0 first. After a blow-up each NaN is the same one: its
 // sign depends on the order of operands and says nothing.
@@ -50,4 +50,4 @@ PoseDistance pose_distance(const RecordedStates& x, const RecordedStates& y, std
 // One number for each step, the state at t = 0 first. Equal bits give equal numbers; a single bit changes it.
 std::vector<std::uint64_t> hashes_of(const RecordedStates& states);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

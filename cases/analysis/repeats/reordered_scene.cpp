@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // A shuffle of its own, so that it is the same with every library.
@@ -149,4 +149,4 @@ CopiedScene copied(const Scene& scene, std::size_t copies, const Vec3& offset) {
   return out;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -7,7 +7,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct ReorderedScene {
   Scene scene;
@@ -30,4 +30,4 @@ struct CopiedScene {
 };
 CopiedScene copied(const Scene& scene, std::size_t copies, const Vec3& offset);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -13,7 +13,7 @@
 #include "core/base/json.h"
 #include "core/engine/simulation.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // A difference like this many times that of one rounding is one of a few roundings that the motion amplifies.
@@ -310,4 +310,4 @@ RepeatReport repeat(const EngineTable& engines, const Case& definition, const Ru
   return report;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -10,7 +10,7 @@
 #include "cases/analysis/repeats/changes.h"
 #include "cases/case/case.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct RepeatOutcome {
   std::string change, label;
@@ -60,4 +60,4 @@ RecordedStates base_states(const EngineTable& engines, const Case& definition, c
 RepeatReport repeat(const EngineTable& engines, const Case& definition, const RunName& run, const StepSize& dt,
                     const RepeatOptions& options);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

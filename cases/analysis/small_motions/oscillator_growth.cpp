@@ -11,7 +11,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using State = Eigen::Vector2d;  // frequency times the coordinate (or the coordinate, without a spring), and its speed
@@ -149,4 +149,4 @@ std::optional<double> energy_growth(const std::string& core_run, ForceElement::K
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

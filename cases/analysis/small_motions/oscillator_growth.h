@@ -6,7 +6,7 @@
 
 #include "cases/analysis/small_motions/small_motions.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // The factor by which the energy of the oscillator grows in each step of dt, in the long run. The named run of the core
 // steps one body on a spring along its line, a hinge or a slider of that frequency and damping. A one-step method is
@@ -15,4 +15,4 @@ namespace rigor {
 std::optional<double> energy_growth(const std::string& core_run, ForceElement::Kind kind, const Oscillator& oscillator,
                                     double dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

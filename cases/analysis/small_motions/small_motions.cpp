@@ -9,7 +9,7 @@
 #include "core/base/eigen_of.h"
 #include "core/dynamics/joints/joint_rows.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using DenseMatrix = Eigen::MatrixXd;
@@ -218,4 +218,4 @@ double largest_semi_implicit_step(const Oscillator& oscillator) {
   return 4 / (rate + std::sqrt(rate * rate + 4 * w2));  // the root of w2 dt² + 2 rate dt = 4, without cancellation
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -9,7 +9,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // A spring, a joint's own spring and damper, or a servo that acts at each instant: a force along one coordinate.
 struct ForceElement {
@@ -55,4 +55,4 @@ class SmallMotions {
 // The largest dt [s] at which a semi-implicit Euler step keeps the oscillator bounded: (frequency dt)² + 2 rate dt < 4.
 double largest_semi_implicit_step(const Oscillator& oscillator);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

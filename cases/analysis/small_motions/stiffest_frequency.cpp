@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // The effect of a spring's unit pull on one of its bodies, in W.
@@ -70,4 +70,4 @@ double stiffest_frequency(const Scene& scene) {
   return std::sqrt(eigenvalue);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

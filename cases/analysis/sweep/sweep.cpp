@@ -14,7 +14,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/toml/writing/value_writer.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using Kind = SweepAxis::Kind;
@@ -255,4 +255,4 @@ std::string Sweep::plan() const {
   return plan + fmt::format("{}\n", fmt::join(metrics_, " "));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -14,7 +14,7 @@
 #include "cases/runner/executor.h"
 #include "cases/runner/shards/shard.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 inline constexpr double kMostCells = 1e6;     // of a sweep
 inline constexpr std::size_t kRowsOfJob = 8;  // at most
@@ -113,4 +113,4 @@ void apply_answer(SweepRow& row, const std::string& answer);
 void run_sweep(const Sweep& sweep, const EngineTable& engines, const SweepOptions& options,
                const std::function<void(const SweepRow& row)>& on_row);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -187,4 +187,4 @@ std::vector<std::vector<double>> sample_points(std::size_t count, std::size_t ax
   return points;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

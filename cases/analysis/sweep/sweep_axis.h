@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct SweepAxis {
   // step: dt. length: the run's duration. option: of a method. scene: a value of the scene, by its path.
@@ -41,4 +41,4 @@ std::string unit_of_axis(const SweepAxis& axis);
 // an offset drawn from the seed (Cranley, Patterson, SIAM J. Numer. Anal. 13 (1976) 904).
 std::vector<std::vector<double>> sample_points(std::size_t count, std::size_t axes, unsigned long seed);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

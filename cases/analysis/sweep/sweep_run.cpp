@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 using Rows = std::vector<SweepRow>;
@@ -286,4 +286,4 @@ void run_sweep(const Sweep& sweep, const EngineTable& engines, const SweepOption
       [&](std::size_t job, const JobEnd& end) { progress.end(jobs.given(job), end); });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

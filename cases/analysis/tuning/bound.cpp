@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 struct UnitRow {
@@ -69,4 +69,4 @@ Bound parse_bound(const std::string& text) {
   return {row->metric, read_positive(plain.substr(0, unit_at), text) * row->size, text};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct Bound {
   std::string metric;  // a row of metrics.cpp whose smaller values are better
@@ -14,4 +14,4 @@ struct Bound {
 // Throws InputError for a text that is no bound.
 Bound parse_bound(const std::string& text);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

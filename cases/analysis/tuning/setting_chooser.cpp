@@ -6,7 +6,7 @@
 
 #include "cases/analysis/sweep/sweep_axis.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 constexpr double kShare = 0.25;                 // of the run
@@ -143,4 +143,4 @@ std::vector<std::string> SettingChooser::settings_of(const MethodSpace& space, s
   return runs;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

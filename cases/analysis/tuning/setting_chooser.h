@@ -9,7 +9,7 @@
 #include "cases/analysis/tuning/tuning_probe.h"
 #include "cases/analysis/tuning/tuning_space.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // A probe may take kFarDearer times as long as others of its kind, because a dearer setting cannot win. The limit is at
 // least kLeastLimit [s of CPU time]. The overhead of a probe, some tens of milliseconds, is then negligible, and the
@@ -52,4 +52,4 @@ class SettingChooser {
   std::vector<std::string> without_effect_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 std::string RefinedNumber::at(double share) const {
   const double number = is_logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
@@ -105,4 +105,4 @@ Refined refine(const Refined& start, const std::vector<OptionInfo>& options, Pro
   return Refiner(start, options, prober, engines, jobs).best();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -9,7 +9,7 @@
 #include "cases/analysis/tuning/tuning_probe.h"
 #include "cases/analysis/tuning/tuning_space.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // A number of a run, and the tried values on both sides of it.
 struct RefinedNumber {
@@ -35,4 +35,4 @@ struct Refined {
 Refined refine(const Refined& start, const std::vector<OptionInfo>& options, Prober& prober, const EngineTable& engines,
                int jobs);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

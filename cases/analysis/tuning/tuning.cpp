@@ -9,7 +9,7 @@
 #include "cases/analysis/tuning/setting_chooser.h"
 #include "cases/analysis/tuning/setting_refiner.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 namespace {
 
 // A run of the space and the coarsest step that has kept the bounds so far.
@@ -300,4 +300,4 @@ Tuning tune(const std::string& text, const std::vector<Case>& cases, const std::
   return Tuner(text, cases, bounds, engines, options).run();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -14,7 +14,7 @@
 #include "cases/analysis/tuning/bound.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct TuneOptions {
   int jobs = 1;
@@ -59,4 +59,4 @@ const std::vector<StepSize>& tuned_steps();
 Tuning tune(const std::string& text, const std::vector<Case>& cases, const std::vector<Bound>& bounds,
             const EngineTable& engines, const TuneOptions& options);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

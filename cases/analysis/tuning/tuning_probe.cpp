@@ -8,7 +8,7 @@
 
 #include "cases/runner/grid.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 std::vector<ProbeAnswer> Prober::run(const std::vector<Probe>& probes, const ProbeEffort& effort) {
   if (probes.empty()) return {};
@@ -94,4 +94,4 @@ void Prober::add(ProbeAnswer& answer, const CaseResult& result, const Cell& cell
   if (cost != cell.metrics.end()) answer.cost += cost->second.value;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -9,7 +9,7 @@
 #include "adapters/engines.h"
 #include "cases/analysis/tuning/tuning.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 struct Probe {
   std::string run;
@@ -57,4 +57,4 @@ class Prober {
   std::set<std::string> remarks_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

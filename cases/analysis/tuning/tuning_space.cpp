@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 std::vector<std::string> tried_values(const OptionInfo& option) {
   if (!option.choices.empty()) return option.choices;
@@ -61,4 +61,4 @@ std::vector<MethodSpace> method_spaces(const std::string& text, const std::vecto
   return spaces;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

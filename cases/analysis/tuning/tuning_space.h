@@ -6,7 +6,7 @@
 
 #include "core/engine/run_name.h"
 
-namespace rigor {
+namespace rigor::inline analysis {
 
 // The values of an option that are tried: every choice, or numbers from the smallest to the largest. The scale is
 // logarithmic if the range spans more than two decades or begins at 0.
@@ -23,4 +23,4 @@ struct MethodSpace {
 };
 std::vector<MethodSpace> method_spaces(const std::string& text, const std::vector<EngineInfo>& engines);
 
-}  // namespace rigor
+}  // namespace rigor::inline analysis

@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 // Bytes that are read from front to back.
@@ -137,4 +137,4 @@ void read_mcap(std::string_view file, const std::string& path, const McapReader&
   McapParser(path, reader).read_file(file);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // Of a file's form, for readers and writers.
 namespace mcap {
@@ -45,4 +45,4 @@ struct McapReader {
 // compressed chunks.
 void read_mcap(std::string_view file, const std::string& path, const McapReader& reader);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -7,7 +7,7 @@
 #include "core/base/eigen_of.h"
 #include "core/base/rotation_vector.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 constexpr std::size_t kWindow = 9;  // samples: a parabola through fewer follows the noise, and more meet more impacts
@@ -60,4 +60,4 @@ EstimatedNoise estimated_noise(const std::vector<RecordedTrial>& trials) {
   return {deviation_of(std::move(positions)), deviation_of(std::move(turns))};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

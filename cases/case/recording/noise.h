@@ -9,7 +9,7 @@
 
 #include "cases/case/recording/recording.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 struct EstimatedNoise {
   std::optional<double> position, orientation;  // m, rad: one standard deviation along or about each axis
@@ -18,4 +18,4 @@ struct EstimatedNoise {
 // Nothing for a part that was not measured nine times in a row, or that has no scatter.
 EstimatedNoise estimated_noise(const std::vector<RecordedTrial>& trials);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

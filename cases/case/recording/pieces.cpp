@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 template <typename T>
@@ -73,4 +73,4 @@ std::vector<RecordedTrial> pieces_of(const std::vector<RecordedTrial>& trials, d
   return pieces;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

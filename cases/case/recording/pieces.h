@@ -6,7 +6,7 @@
 
 #include "cases/case/recording/recording.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // Pieces of at most `length` [s], each from where the one before ended. Dropped are what is left of a trial at its end,
 // and intervals that are longer than a piece.
@@ -14,4 +14,4 @@ namespace rigor {
 // throws InputError with a sentence otherwise, and if no trial is as long as a piece.
 std::vector<RecordedTrial> pieces_of(const std::vector<RecordedTrial>& trials, double length);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 RecordedBody& samples_of(RecordedTrial& trial, int body) {
   std::vector<RecordedBody>& bodies = trial.bodies;
@@ -35,4 +35,4 @@ void begin_at_zero(RecordedTrial& trial, const std::vector<std::string>& names, 
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

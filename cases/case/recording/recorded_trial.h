@@ -6,7 +6,7 @@
 
 #include "cases/case/recording/recording.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // The length of a quaternion may differ from one by so much. Written with four digits it does by 2e-4.
 inline constexpr double kUnitLength = 1e-3;
@@ -18,4 +18,4 @@ RecordedBody& samples_of(RecordedTrial& trial, int body);
 // one sample, and for bodies that begin at different times. `names`: those of the scene's bodies.
 void begin_at_zero(RecordedTrial& trial, const std::vector<std::string>& names, const std::string& path);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

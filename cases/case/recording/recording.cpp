@@ -5,7 +5,7 @@
 #include "core/base/eigen_of.h"
 #include "core/base/rotation_vector.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 // The coefficients of a + b t + c t², which fits the values best. The first column is a, the second b.
@@ -57,4 +57,4 @@ void start_from(const MotionRecording& recording, std::size_t trial, Scene& scen
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -10,7 +10,7 @@
 #include "core/base/math.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // The samples of one body. A part that was not measured is empty; each other one has a row for each time.
 struct RecordedBody {
@@ -56,4 +56,4 @@ std::vector<RecordedTrial> read_trials(const std::string& text, const std::strin
 std::vector<RecordedTrial> read_mcap_trials(std::string_view file, const std::string& path, const std::string& group,
                                             const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

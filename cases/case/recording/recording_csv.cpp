@@ -16,7 +16,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 using CellTexts = std::vector<std::string_view>;
@@ -221,4 +221,4 @@ std::vector<RecordedTrial> read_trials(const std::string& text, const std::strin
   return RecordingFile(text, path, scene).read(group);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -14,7 +14,7 @@
 #include "core/base/near_match.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 constexpr const char* kTransforms = "foxglove.FrameTransforms";
@@ -137,4 +137,4 @@ std::vector<RecordedTrial> read_mcap_trials(std::string_view file, const std::st
   return McapRecording(path, scene).read(file);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

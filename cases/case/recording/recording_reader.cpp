@@ -16,7 +16,7 @@
 #include "core/scene/toml/file_reader.h"
 #include "core/scene/toml/scene_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 namespace {
 
 namespace fs = std::filesystem;
@@ -176,4 +176,4 @@ void check_covers(const MotionRecording& recording, double duration, const std::
                                what, recording.path, recording.longest(), duration, recording.longest()));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -8,7 +8,7 @@
 #include "cases/case/recording/recording.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline cases {
 
 // All keys of [truth].
 const Keys& truth_keys();
@@ -24,4 +24,4 @@ std::string missing_recording(const Case& definition);
 // counts, and a shorter one ends with its last sample.
 void check_covers(const MotionRecording& recording, double duration, const std::string& what);
 
-}  // namespace rigor
+}  // namespace rigor::inline cases

@@ -17,7 +17,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 // What ranks say. A helper: what it has planned, whether it sees the folder, that it can take a job, what a job says
@@ -278,4 +278,4 @@ void MpiExecutor::run(JobSource& jobs, const Work& work, const OnMessage& on_mes
   throw Dismissed();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

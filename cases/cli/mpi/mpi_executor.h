@@ -9,7 +9,7 @@
 
 #include "cases/runner/executor.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 class MpiExecutor : public Executor {
  public:
@@ -35,4 +35,4 @@ class MpiExecutor : public Executor {
   mutable std::deque<int> hungry_;  // ranks that asked for a job, once for each they can take
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 struct Rounded {
@@ -48,4 +48,4 @@ std::string duration_range(double least, double most) {
   return fmt::format("{} to {}", text_of_duration(low), end);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

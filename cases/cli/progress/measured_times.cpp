@@ -7,7 +7,7 @@
 #include "cases/report/json/machine.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 MeasuredTimes measured_times(const std::string& folder) {
   constexpr std::uintmax_t kLargest = 64 << 20;  // bytes: a larger file takes longer to read than the plan is worth
@@ -33,4 +33,4 @@ MeasuredTimes measured_times(const std::string& folder) {
   return times;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

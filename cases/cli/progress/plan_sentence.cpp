@@ -7,7 +7,7 @@
 #include "cases/cli/progress/durations.h"
 #include "cases/cli/progress/measured_times.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 constexpr double kPerSolvedTruth = 1, kPerClosedForm = 0.05;  // s
@@ -71,4 +71,4 @@ std::string plan_sentence(const Results& planned, const GridRequest& asked) {
                      counted(static_cast<std::size_t>(asked.jobs.count), "job"), asked.out.dir);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

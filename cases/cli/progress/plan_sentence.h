@@ -7,7 +7,7 @@
 #include "cases/cli/progress/time_left.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 // "3 cases by 20 runs: 140 cells, 12 more unsupported; 20 to 60 s with 2 jobs; the reports will be in out".
 std::string plan_sentence(const Results& planned, const GridRequest& asked);
@@ -16,4 +16,4 @@ std::string plan_sentence(const Results& planned, const GridRequest& asked);
 // count with what a step of a body costs in the mean, which is right to a factor of four either way.
 Estimate estimated_seconds(const Results& planned, const GridRequest& asked);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

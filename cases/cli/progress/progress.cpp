@@ -10,7 +10,7 @@
 #include "cases/cli/progress/durations.h"
 #include "cases/runner/process_pool.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 // s between two lines. RIGOR_PROGRESS_SECONDS changes it, for tests.
@@ -100,4 +100,4 @@ std::string progress_text(const std::string& what, std::size_t done, std::size_t
   return fmt::format("{}; {} left", text, duration_range(left, kDearer * left));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

@@ -9,7 +9,7 @@
 
 #include "cases/cli/progress/time_left.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 class Progress {
  public:
@@ -42,4 +42,4 @@ std::string progress_text(const std::string& what, std::size_t done, std::size_t
 std::string progress_text(const std::string& what, std::size_t done, std::size_t all, double seconds,
                           const std::optional<Estimate>& left);
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

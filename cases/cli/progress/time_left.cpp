@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline cli {
 namespace {
 
 // Fitted to 11 runs and gates of the suite, of 50 s to 8 minutes with two jobs.
@@ -102,4 +102,4 @@ std::optional<Estimate> TimeLeft::at(double elapsed) {
   return Estimate{left / kTooLong, left * kTooShort};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

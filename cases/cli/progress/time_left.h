@@ -16,7 +16,7 @@
 #include "cases/cli/progress/measured_times.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline cli {
 
 // s, of wall time.
 struct Estimate {
@@ -53,4 +53,4 @@ class TimeLeft {
   std::vector<std::pair<double, double>> totals_ = {};  // s: elapsed, predicted total
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline cli

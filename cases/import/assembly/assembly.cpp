@@ -13,7 +13,7 @@
 #include "core/base/error.h"
 #include "core/scene/validate.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 // A shape this near to the centre of mass counts as centred. No robot's file distinguishes nanometres.
@@ -309,4 +309,4 @@ class Assembler {
 
 Scene scene_of(LinkModel& model, bool with_ground) { return Assembler(model).scene(with_ground); }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -5,10 +5,10 @@
 
 #include "core/scene/link_model.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // Adds to model.left_out what a scene cannot say. `with_ground`: also a plane under the lowest shape, unless the model
 // has a plane. Throws InputError.
 Scene scene_of(LinkModel& model, bool with_ground = false);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

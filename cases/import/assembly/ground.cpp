@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 void add_ground(LinkModel& model) {
   const Vec3 up = model.gravity.isZero(0) ? Vec3::UnitZ().eval() : (-model.gravity).normalized();
@@ -28,4 +28,4 @@ void add_ground(LinkModel& model) {
   model.links.push_back(std::move(ground));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

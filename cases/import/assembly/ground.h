@@ -3,7 +3,7 @@
 
 #include "core/scene/link_model.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 inline constexpr double kGroundFriction = 1;  // of --ground: rubber on concrete
 
@@ -11,4 +11,4 @@ inline constexpr double kGroundFriction = 1;  // of --ground: rubber on concrete
 // Throws InputError if no shape could touch it.
 void add_ground(LinkModel& model);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

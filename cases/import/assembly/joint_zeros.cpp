@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 // Returns the joints at each link, by link + 1.
@@ -143,4 +143,4 @@ void take_to_start(LinkModel& model) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

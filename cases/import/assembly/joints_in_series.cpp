@@ -5,7 +5,7 @@
 
 #include "core/scene/joints/axis_series.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 bool is_bare(const LinkJoint& row) {
@@ -59,4 +59,4 @@ JointSeries joints_in_series(const std::vector<const LinkJoint*>& chain, int a, 
   return series;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -5,7 +5,7 @@
 
 #include "core/scene/link_model.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 struct JointSeries {
   std::vector<Joint> rows;  // of Scene::joints, one behind the other; empty if no joint of a scene equals the series
@@ -16,4 +16,4 @@ struct JointSeries {
 // universal joint.
 JointSeries joints_in_series(const std::vector<const LinkJoint*>& chain, int a, int b);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -6,7 +6,7 @@
 #include "core/base/eigen_of.h"
 #include "core/scene/validate.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 // Least second moment of the repaired tensor, as a share of their sum. A plate or a needle has less, but thinner ones
@@ -65,4 +65,4 @@ std::optional<RepairedInertia> nearest_inertia(const Mat3& inertia) {
   return RepairedInertia{symmetric, (symmetric - inertia).norm() / size};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -5,7 +5,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // The inertia of a point mass at `offset` about the origin (Steiner).
 Mat3 steiner(double mass, const Vec3& offset);
@@ -20,4 +20,4 @@ struct RepairedInertia {
 // tensor, which is near to none.
 std::optional<RepairedInertia> nearest_inertia(const Mat3& inertia);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

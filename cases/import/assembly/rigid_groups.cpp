@@ -8,7 +8,7 @@
 #include "cases/import/assembly/mass_moments.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 // Sets of links. A set is named by its least member.
@@ -214,4 +214,4 @@ RigidGroups rigid_groups(LinkModel& model) {
   return groups;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -4,7 +4,7 @@
 
 #include "core/scene/link_model.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 struct RigidGroups {
   static constexpr int kNone = -2;     // of a link that is left out
@@ -21,4 +21,4 @@ RigidGroups rigid_groups(LinkModel& model);
 // The mass, the centre of mass and the inertia of several parts together.
 LinkInertial sum_of(const std::vector<LinkInertial>& parts);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -14,7 +14,7 @@
 #include "core/dynamics/collision/narrow_phase.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr std::size_t kMostRows = 100000;  // pairs with a law of their own
@@ -228,4 +228,4 @@ void settle_contacts(LinkModel& model, const Touching& touching, const std::vect
   scene.contact_pairs = PairLaws(model, touching, sources, scene).rows(scene.contact_default);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

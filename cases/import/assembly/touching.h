@@ -9,7 +9,7 @@
 
 #include "core/scene/link_model.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // A body of the scene, and the shapes that it was made of.
 struct ContactSource {
@@ -58,4 +58,4 @@ class Touching {
 void settle_contacts(LinkModel& model, const Touching& touching, const std::vector<ContactSource>& sources,
                      Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

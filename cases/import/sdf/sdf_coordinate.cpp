@@ -7,7 +7,7 @@
 
 #include "cases/import/model_elements.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr double kUnlimited = 1e16;  // of a joint's limits, as the format has it
@@ -56,4 +56,4 @@ void read_sdf_coordinate(const XmlElement& axis, const std::string& type, LinkJo
   row.friction = not_negative(value("friction"), "friction", *dynamics);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -5,9 +5,9 @@
 
 #include "cases/import/xml.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // `type` as the file has it: a continuous joint has no limits. A joint whose limits are both zero becomes a fixed one.
 void read_sdf_coordinate(const XmlElement& axis, const std::string& type, LinkJoint& row, LeftOut& left_out);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

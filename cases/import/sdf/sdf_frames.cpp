@@ -4,7 +4,7 @@
 
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr const char* kWorldFrame = "world";
@@ -58,4 +58,4 @@ std::string SdfFrames::carrier(const std::string& scope, const std::string& name
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

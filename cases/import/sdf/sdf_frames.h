@@ -7,7 +7,7 @@
 
 #include "cases/import/xml.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 class SdfFrames {
  public:
@@ -35,4 +35,4 @@ class SdfFrames {
   std::map<std::string, std::string> attached_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

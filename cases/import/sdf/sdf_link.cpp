@@ -13,7 +13,7 @@
 #include "cases/import/model_files.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr double kFrictionOfFormat = 1;
@@ -275,4 +275,4 @@ Link read_sdf_link(const XmlElement& element, const std::string& file, bool repa
   return SdfLinkReader(element, file, repairs, left_out).read();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

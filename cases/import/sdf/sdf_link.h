@@ -3,7 +3,7 @@
 
 #include "cases/import/xml.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 // A <pose>: x y z roll pitch yaw, or as its attributes say. The caller resolves relative_to.
 BodyPose sdf_pose(const std::optional<XmlElement>& pose, LeftOut& left_out);
@@ -12,4 +12,4 @@ BodyPose sdf_pose(const std::optional<XmlElement>& pose, LeftOut& left_out);
 // have.
 Link read_sdf_link(const XmlElement& element, const std::string& file, bool repairs, LeftOut& left_out);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -16,7 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 namespace {
 
 constexpr double kSdfGravity = 9.8;  // m/s², along -z: the format's own default
@@ -328,4 +328,4 @@ class SdfReader {
 
 LinkModel read_sdf(const XmlFile& file, const ImportOptions& options) { return SdfReader(file, options).read(file); }
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -6,8 +6,8 @@
 #include "cases/import/import_options.h"
 #include "cases/import/xml.h"
 
-namespace rigor {
+namespace rigor::inline imports {
 
 LinkModel read_sdf(const XmlFile& file, const ImportOptions& options);
 
-}  // namespace rigor
+}  // namespace rigor::inline imports

@@ -6,7 +6,7 @@
 #include "cases/metrics/measures/shape_gap.h"
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 std::string why_not_built_at_rest(const JudgedRun& run) {
   const Scene& scene = run.scene;
@@ -50,4 +50,4 @@ std::optional<Instant> collapse_of(const JudgedRun& run) {
   return {};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -7,7 +7,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // Why the run's scene is not built to stand, or its truth moves; empty if it stands.
 std::string why_not_built_at_rest(const JudgedRun& run);
@@ -15,4 +15,4 @@ std::string why_not_built_at_rest(const JudgedRun& run);
 // The first instant at which a body of such a scene has moved by more than half its bounding radius; none if all stand.
 std::optional<Instant> collapse_of(const JudgedRun& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

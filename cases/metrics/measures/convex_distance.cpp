@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 constexpr int kMostDistanceRounds = 256;
@@ -237,4 +237,4 @@ ConvexGap convex_distance(const Shape& a, const Pose& pose_a, const Shape& b, co
   return {};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -6,7 +6,7 @@
 
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct ConvexGap {
   double gap;   // m, negative where they overlap
@@ -17,4 +17,4 @@ struct ConvexGap {
 // Neither shape is a plane or a compound.
 ConvexGap convex_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

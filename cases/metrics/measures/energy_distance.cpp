@@ -5,7 +5,7 @@
 #include <random>
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
@@ -71,4 +71,4 @@ EnergyTest energy_test(const Points& x, const Points& y, int permutations, std::
   return {found.energy() / (2 * found.across), (1.0 + as_large) / (1.0 + permutations)};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

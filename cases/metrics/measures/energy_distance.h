@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline metric {
 
 using Points = std::vector<std::vector<double>>;  // points of one dimension each
 
@@ -20,4 +20,4 @@ struct EnergyTest {
 // Each sample has two points or more, and each point the same dimension.
 EnergyTest energy_test(const Points& x, const Points& y, int permutations, std::uint64_t seed);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

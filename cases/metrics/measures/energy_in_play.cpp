@@ -11,7 +11,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // m/s: gained by a body of that speed that falls by `height`.
@@ -126,4 +126,4 @@ double energy_in_play(const Scene& scene, double duration) {
   return sum > 0 ? sum : 1;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // J, the largest kinetic energy that the bodies should reach within `duration` [s]: their initial energy, the energy of
 // the springs, the work of timed forces, and each body's weight times the height it can fall. The height ends at the
@@ -19,4 +19,4 @@ namespace rigor {
 // If nothing can fall, move or recoil: the energy that would lift every body by its inradius; without gravity, 1 J.
 double energy_in_play(const Scene& scene, double duration);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

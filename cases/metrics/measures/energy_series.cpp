@@ -12,7 +12,7 @@
 #include "core/dynamics/model/energy.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 enum class Exchange { none, contact, damping, driving };
@@ -156,4 +156,4 @@ EnergySeries energy_series(const JudgedRun& run, double stagger) {
   return series;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

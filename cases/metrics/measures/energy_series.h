@@ -6,7 +6,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct EnergySeries {
   std::vector<double> found, expected;  // J, one for each sample compared
@@ -52,4 +52,4 @@ bool may_change_energy(const Scene& scene);
 // it, it is the scene's energy in play (energy_in_play.h) over the run's duration.
 double energy_scale(const JudgedRun& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

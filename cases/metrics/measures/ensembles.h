@@ -6,11 +6,11 @@
 
 #include "cases/metrics/measures/energy_distance.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct Ensembles {
   EnergyTest test;
   std::string flaw;  // why there is no test; empty if there is
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

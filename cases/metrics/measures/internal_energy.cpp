@@ -4,7 +4,7 @@
 #include "cases/metrics/measures/synchronised.h"
 #include "core/dynamics/model/energy.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 double moving_mass(const Scene& scene) {
@@ -50,4 +50,4 @@ EnergySeries internal_energy_series(const JudgedRun& run, double stagger) {
   return series;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

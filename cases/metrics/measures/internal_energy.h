@@ -5,10 +5,10 @@
 
 #include "cases/metrics/measures/energy_series.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // `stagger`: see energy_series.h. The energy expected is that of the start, and so is the scale. Not applicable where
 // something outside holds the bodies, where something takes or gives energy, or where the total says the same.
 EnergySeries internal_energy_series(const JudgedRun& run, double stagger);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

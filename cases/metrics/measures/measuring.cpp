@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // At the start every run equals the scene. A comparison only there would find no error in any run.
@@ -51,4 +51,4 @@ std::size_t samples_with_twin(const JudgedRun& run, const std::vector<double>& r
   return beyond_the_start(n, run);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -5,7 +5,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // Collects a metric's value at one sample after another; the worst instant is that of the largest.
 class TimeSeries {
@@ -45,4 +45,4 @@ inline constexpr const char* kNoTwin =
 inline constexpr const char* kNoTruth = "the case has no truth";
 inline constexpr const char* kNoSamples = "there is no sample after the start at which the truth is good enough";
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -7,7 +7,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 bool holds_still(const Scene& scene, int body) { return body == kWorld || scene.bodies[body].fixed; }
@@ -73,4 +73,4 @@ MetricResult against_truth(const JudgedRun& run, const std::string& symbol, cons
   return {std::move(series).finish(), ""};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -6,7 +6,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // Why something outside the moving bodies acts on them, besides gravity and timed forces: a spring or joint to the
 // world or to a fixed body, or contact with a fixed body. If empty, the forces alone determine the momenta.
@@ -25,4 +25,4 @@ MetricResult against_law(const JudgedRun& run, const std::string& symbol, const 
 MetricResult against_truth(const JudgedRun& run, const std::string& symbol, const MomentumOf& momentum,
                            const std::string& why);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct PoseGap {
   Vec3 position;     // m, found - truth, in W
@@ -19,4 +19,4 @@ inline PoseGap pose_gap(const BodyState& found, const BodyState& truth) {
           -(turn.w() * w_B + w_B.cross(Vec3(turn.vec())))};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -6,7 +6,7 @@
 
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 using RateOf = Vec3 (BodyColumns::*)(std::size_t body) const;
 
@@ -34,4 +34,4 @@ inline MetricResult rate_gap(const JudgedRun& run, std::size_t count, RateOf rat
   return {std::move(series).finish(), ""};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -9,7 +9,7 @@
 #include "cases/metrics/measures/convex_distance.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -221,4 +221,4 @@ void for_each_near_pair(const Scene& scene, BodyColumns bodies, double reach,
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

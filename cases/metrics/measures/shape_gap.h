@@ -8,7 +8,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // m. Exact for every pair of sphere, box, capsule and plane, with two exceptions. For separate boxes it is the largest
 // gap along any face normal or across two edges, which is the distance unless two corners are nearest. For a capsule
@@ -20,4 +20,4 @@ double shape_gap(const Shape& a, const BodyPose& pose_a, const Shape& b, const B
 void for_each_near_pair(const Scene& scene, BodyColumns bodies, double distance,
                         const std::function<void(int a, int b, double gap)>& visit);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 #include "cases/metrics/measures/measuring.h"
 #include "core/scene/features/features.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 std::vector<Stop> stops_of(const JudgedRun& run, std::string& why_none) {
   if (!needs(run.scene, Feature::friction_coulomb))
@@ -26,4 +26,4 @@ std::vector<Stop> stops_of(const JudgedRun& run, std::string& why_none) {
   return stops;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

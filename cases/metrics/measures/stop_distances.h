@@ -7,7 +7,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct Stop {
   int body;
@@ -18,4 +18,4 @@ struct Stop {
 // Bodies that move in truth and rest in truth at the last sample. `why_none`: the reason if there are none.
 std::vector<Stop> stops_of(const JudgedRun& run, std::string& why_none);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

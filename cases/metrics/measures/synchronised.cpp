@@ -5,7 +5,7 @@
 
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 constexpr double kJump = 2;       // a change of velocity that is so many times its neighbour is an impact
@@ -192,4 +192,4 @@ Synchroniser::Readings Synchroniser::readings_beside_impacts(Rate kind, std::siz
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -29,7 +29,7 @@
 #include "core/engine/trajectory.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 class Synchroniser {
  public:
@@ -78,4 +78,4 @@ class Synchroniser {
   std::vector<std::array<double, 2>> lags_;  // of jointed bodies, by Rate
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

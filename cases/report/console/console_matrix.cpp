@@ -12,7 +12,7 @@
 #include "cases/report/wording/wording.h"
 #include "cases/results/main_error.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr std::size_t kCaseColumn = 23, kMatrixColumn = 11;  // 100 characters with seven columns
@@ -175,4 +175,4 @@ std::string console_matrix(const Results& results) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,8 +6,8 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string console_matrix(const Results& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

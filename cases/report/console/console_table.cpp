@@ -17,7 +17,7 @@
 #include "cases/report/wording/wording.h"
 #include "cases/truth/provenance.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 const std::string kNoValue = "-";
@@ -407,4 +407,4 @@ std::string failures_text(const std::vector<Failure>& rows, const std::string& d
   return diagnose.empty() ? text : text + "  to find a known mistake that explains it:\n  " + diagnose + "\n";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

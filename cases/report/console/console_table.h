@@ -1,5 +1,6 @@
-// The output of `rigor run`, in at most 100 columns of plain text: which engine and step to take, the problems found, then
-// one block per case with one row per engine. For many cases a matrix of cases and engines stands in place of the blocks.
+// The output of `rigor run`, in at most 100 columns of plain text: which engine and step to take, the problems found,
+// then one block per case with one row per engine. For many cases a matrix of cases and engines stands in place of the
+// blocks.
 #pragma once
 
 #include <string>
@@ -8,9 +9,10 @@
 #include "cases/gates/failures.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
-// brief: one case fits on a screen. full: with the truth's provenance, explained errors, every reason and every finding.
+// brief: one case fits on a screen. full: with the truth's provenance, explained errors, every reason and every
+// finding.
 enum class Detail { brief, full };
 std::string console_table(const Results& results, Detail detail = Detail::full);
 
@@ -32,4 +34,4 @@ std::string truth_sentence(const CaseResult& result);
 // A sentence for each run that was stepped in part by less than its method.
 std::vector<std::string> cell_warnings(const Results& results, const CaseResult& result, const StepSize& dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -8,7 +8,7 @@
 #include "cases/analysis/cell_history.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr std::size_t kMostShown = 60, kLongestLine = 40;  // cells without a word for them; values of a sparkline
@@ -84,4 +84,4 @@ std::string history_table(const std::vector<HistoryEntry>& history, const std::v
   return head + text + fmt::format("{} cells shown, {} without a change\n", shown, unchanged);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "cases/results/history.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // Cells whose names hold one of `words`; without any, those that have changed, and all where they are few.
 std::string history_table(const std::vector<HistoryEntry>& history, const std::vector<std::string>& words);
@@ -15,4 +15,4 @@ std::string history_table(const std::vector<HistoryEntry>& history, const std::v
 // is not finite a cross.
 std::string sparkline(const std::vector<double>& values);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

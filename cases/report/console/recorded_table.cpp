@@ -5,7 +5,7 @@
 #include "cases/report/layout.h"
 #include "cases/report/wording/recorded_error.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string recorded_table(const Results& results, const CaseResult& result) {
   const TextTable table = recorded_errors(results, result);
@@ -26,4 +26,4 @@ std::string recorded_table(const Results& results, const CaseResult& result) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -5,9 +5,9 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // Empty where the truth is no recording.
 std::string recorded_table(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -2,7 +2,7 @@
 
 #include "cases/report/csv/trajectory_csv.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 void append_reaction_row(std::string& out, const Scene& scene, const Joint& joint, double time, const Vec3& point,
                          const JointReaction& reaction) {
@@ -18,4 +18,4 @@ void append_reaction_row(std::string& out, const Scene& scene, const Joint& join
   out += '\n';
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

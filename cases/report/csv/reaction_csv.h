@@ -6,7 +6,7 @@
 
 #include "cases/metrics/measures/joints/joint_reactions.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 inline constexpr const char* kReactionHeader = "time,joint,px,py,pz,fx,fy,fz,tx,ty,tz\n";
 
@@ -14,4 +14,4 @@ inline constexpr const char* kReactionHeader = "time,joint,px,py,pz,fx,fy,fz,tx,
 void append_reaction_row(std::string& out, const Scene& scene, const Joint& joint, double time, const Vec3& point,
                          const JointReaction& reaction);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

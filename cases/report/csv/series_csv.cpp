@@ -10,7 +10,7 @@
 
 #include "cases/report/csv/trajectory_csv.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string series_file_of(const std::string& trajectory) {
   return std::filesystem::path(trajectory).replace_extension(".series.csv").string();
@@ -62,4 +62,4 @@ bool SeriesRecorder::still_has(const Cell& cell) const {
   return cell.trajectory.empty() || std::filesystem::exists(path_of(cell));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

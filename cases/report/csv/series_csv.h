@@ -7,7 +7,7 @@
 
 #include "cases/runner/recorder.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // "case--engine--dt.series.csv", beside "case--engine--dt.csv".
 std::string series_file_of(const std::string& trajectory);
@@ -31,4 +31,4 @@ class SeriesRecorder : public Recorder {
   std::string folder_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -9,7 +9,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // The step has a separate column.
@@ -61,4 +61,4 @@ std::string sweep_json_row(const Sweep& sweep, const SweepRow& row) {
   return text_of(std::move(json), -1) + "\n";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

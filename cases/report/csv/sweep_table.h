@@ -7,7 +7,7 @@
 
 #include "cases/analysis/sweep/sweep.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string sweep_csv_header(const Sweep& sweep);
 std::string sweep_csv_row(const Sweep& sweep, const SweepRow& row);
@@ -16,4 +16,4 @@ std::string sweep_json_row(const Sweep& sweep, const SweepRow& row);
 // "dt [s]", "scene.spring[0].stiffness [N/m]"
 std::string with_unit(const std::string& name, const std::string& unit);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace rigor {
+namespace rigor::inline report {
 
 // In half of the time of fmt. Formatting is half of the cost of a run's files.
 void append_number(std::string& out, double value) {
@@ -76,4 +76,4 @@ bool TrajectoryRecorder::still_has(const Cell& cell) const {
   return cell.trajectory.empty() || std::filesystem::exists(std::filesystem::path(folder_) / cell.trajectory);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -8,7 +8,7 @@
 #include "core/engine/trajectory.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string csv_header();
 std::string csv_field(const std::string& text);
@@ -36,4 +36,4 @@ class TrajectoryRecorder : public Recorder {
   std::string folder_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

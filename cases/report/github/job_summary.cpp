@@ -7,7 +7,7 @@
 #include "cases/report/console/console_table.h"
 #include "cases/report/markdown/markdown_text.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // A workflow command ends with its line; in a property colon and comma end it too.
@@ -96,4 +96,4 @@ std::string warnings(const Results& results) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

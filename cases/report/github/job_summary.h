@@ -6,7 +6,7 @@
 
 #include "cases/gates/failures.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // A runner refuses a summary of 1 MiB for all steps together; this leaves room for others'.
 inline constexpr std::size_t kLongestSummary = 200000;  // bytes
@@ -19,4 +19,4 @@ std::string annotations(const std::vector<Failure>& rows);
 // One `::warning` line for each gate that held by a run that was stepped in part by less than its method.
 std::string warnings(const Results& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

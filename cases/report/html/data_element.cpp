@@ -5,7 +5,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr const char* kClosing = "</script>";
@@ -36,4 +36,4 @@ std::string data_of_element(const std::string& page, const std::string& id) {
   return end == std::string::npos ? "" : page.substr(from, end - from);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -5,7 +5,7 @@
 
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 inline constexpr const char *kResultsElement = "rigor-results", *kPlaybackElement = "rigor-playback",
                             *kSiteElement = "rigor-site", *kDivergenceElement = "rigor-divergence";
@@ -19,4 +19,4 @@ std::string with_data_element(const std::string& page, const std::string& id, co
 // The JSON text of the first such element of a page; empty if there is none.
 std::string data_of_element(const std::string& page, const std::string& id);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // An engine may name the bodies of a pair in either order.
@@ -82,4 +82,4 @@ void ForcePlayback::add_to(Bytes& bytes, const std::vector<std::size_t>& samples
   bytes.add_differences(values);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

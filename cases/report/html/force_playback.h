@@ -8,7 +8,7 @@
 #include "cases/report/json/packing.h"
 #include "core/engine/trajectory.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 class ForcePlayback {
  public:
@@ -38,4 +38,4 @@ class ForcePlayback {
   std::vector<std::vector<double>> sizes_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

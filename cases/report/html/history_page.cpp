@@ -9,7 +9,7 @@
 #include "cases/report/html/svg.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr double kPlotLeft = 62, kPlotTop = 10, kPlotWidth = 420, kPlotHeight = 90, kPlotBottom = 34,
@@ -122,4 +122,4 @@ std::string history_page(const std::vector<HistoryEntry>& history, const std::ve
   return text + "</body></html>\n";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

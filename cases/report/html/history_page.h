@@ -8,7 +8,7 @@
 #include "cases/analysis/cell_history.h"
 #include "cases/results/history.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // For all cells, or those whose names contain one of `words`: changed ones first.
 std::string history_page(const std::vector<HistoryEntry>& history, const std::vector<std::string>& words);
@@ -16,4 +16,4 @@ std::string history_page(const std::vector<HistoryEntry>& history, const std::ve
 // One cell: its name, the change of its status, and its error and cost drawn, as HTML.
 std::string history_section(const CellHistory& cell, const std::vector<HistoryEntry>& history);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

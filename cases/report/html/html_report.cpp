@@ -22,7 +22,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Seven digits, more than the page shows anywhere. Non-finite values are not shown. strtod reads them back and handles
@@ -192,4 +192,4 @@ std::string html_report(const Results& results) {
   return page;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr double kPositionSeen = 1e-3;  // of the motion's extent: a pixel or so of the picture
@@ -117,4 +117,4 @@ double Poses::deviation(std::size_t n, std::size_t a, std::size_t b) const {
   return std::max(std::sqrt(position) / position_seen_, angle / kTurnSeen);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct BoundingBox {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -62,4 +62,4 @@ class Poses {
   std::size_t bodies_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

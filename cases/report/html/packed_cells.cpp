@@ -6,7 +6,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Values in the order in which they first came, each once.
@@ -51,4 +51,4 @@ void pack_cells(Json& results) {
   results["strings"] = strings.take(), results["cell_settings"] = settings.take();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

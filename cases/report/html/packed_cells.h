@@ -4,7 +4,7 @@
 
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The metrics of a cell become an array of arrays: name, value, then of the worst instant time [s], body, component
 // and, where they are not the value and 0, found and expected; last an object of whatever else there is. Names, bodies
@@ -12,4 +12,4 @@ namespace rigor {
 // data.js reads them back.
 void pack_cells(Json& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "cases/report/html/playback.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr double kLinearSeen = 5e-3;   // of a series' range: a pixel of a plot
@@ -96,4 +96,4 @@ void SeriesSet::add_to(Bytes& bytes, const std::vector<std::size_t>& points) con
   forces_->add_to(bytes, points);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

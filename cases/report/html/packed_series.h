@@ -7,7 +7,7 @@
 #include "cases/report/html/thinning.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // A u32 for their number, then two lists as Bytes::add_differences: the lower and the upper halves.
 void add_samples(Bytes& bytes, const std::vector<std::size_t>& samples);
@@ -34,4 +34,4 @@ class SeriesSet {
   std::size_t count_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -3,12 +3,12 @@
 
 #include <string_view>
 
-namespace rigor {
+namespace rigor::inline report {
 
 extern const std::string_view kPageScript;
 extern const std::string_view kPageScriptHash;  // as a content security policy names it
 extern const std::string_view kPageStyle;
-extern const std::string_view kSiteStyle;  // of the pages of `rigor site` that run no script
+extern const std::string_view kSiteStyle;     // of the pages of `rigor site` that run no script
 extern const std::string_view kPageLicences;  // of the script's content
 
-}  // namespace rigor
+}  // namespace rigor::inline report

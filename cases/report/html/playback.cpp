@@ -19,7 +19,7 @@
 #include "cases/results/trial_results.h"
 #include "core/dynamics/model/energy.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr std::size_t kMostKeys = 6000;              // of a motion
@@ -275,4 +275,4 @@ Motions PlaybackChoice::of_truth(const CaseResult& result) const {
   return chosen(result, recordings_of_truth(result), kTruth);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -10,7 +10,7 @@
 #include "cases/results/results.h"
 #include "cases/runner/recorder.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // A series beside the metrics': (E - E at the start) / the truth's largest kinetic energy, with its sign, as read.
 inline constexpr const char* kEnergyChange = "energy_change";
@@ -73,4 +73,4 @@ class PlaybackChoice {
   double scale_ = 0;  // characters for each unit of weight
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr const char* kStyle = R"(<style>
@@ -102,4 +102,4 @@ std::string tick(double value) {
   return mantissa + "·10" + raised;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

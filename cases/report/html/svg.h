@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string escaped(const std::string& text);  // for HTML and SVG
 std::string svg_text(double x, double y, const std::string& text, const char* anchor = "middle", double turn = 0);
@@ -18,4 +18,4 @@ std::string page_head(const std::string& title);
 // Two or three digits: a tick's label.
 std::string tick(double value);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -8,7 +8,7 @@
 #include "cases/report/html/svg.h"
 #include "cases/report/html/sweep_page.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr float kLimit = 2;
@@ -79,4 +79,4 @@ std::string SweepPage::limit_key(std::size_t of_case) const {
          "neighbours, because the verdict reads the energy in the last tenth of the run.</p>\n";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

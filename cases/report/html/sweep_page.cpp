@@ -9,7 +9,7 @@
 #include "cases/report/csv/sweep_table.h"
 #include "cases/report/html/svg.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 using namespace sweep_drawing;
@@ -341,4 +341,4 @@ std::string SweepPage::text() const {
   return page + "</body></html>\n";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

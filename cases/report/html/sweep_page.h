@@ -8,7 +8,7 @@
 
 #include "cases/analysis/sweep/sweep.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // px, of the area between the axes
 namespace sweep_drawing {
@@ -75,4 +75,4 @@ class SweepPage {
   double last_frequency_ = 0;            // rad/s
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <queue>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // A interval between two kept samples and the sample in it that deviates most.
@@ -57,4 +57,4 @@ std::vector<std::size_t> first_samples(const std::vector<KeptSample>& ranked, st
   return indices;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The distance of sample i from the straight line between samples a and b, a < i < b; 1 is barely visible.
 using Deviation = std::function<double(std::size_t i, std::size_t a, std::size_t b)>;
@@ -29,4 +29,4 @@ std::vector<KeptSample> ranked_samples(std::size_t count, std::size_t limit, con
 // The indices of the first `number` of them, ascending.
 std::vector<std::size_t> first_samples(const std::vector<KeptSample>& ranked, std::size_t number);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

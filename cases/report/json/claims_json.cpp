@@ -2,7 +2,7 @@
 
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 Json claims_json(const std::vector<Claim>& claims) {
   Json rows = Json::array();
@@ -21,4 +21,4 @@ Json claims_json(const std::vector<Claim>& claims) {
   return rows;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,8 +6,8 @@
 #include "cases/report/wording/message.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 Json claims_json(const std::vector<Claim>& claims);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -2,8 +2,8 @@
 
 #include "built_from.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string commit() { return RIGOR_COMMIT; }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

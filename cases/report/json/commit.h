@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The text of `git describe`, with "-dirty" if files differ from it; "" without a checkout.
 std::string commit();
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -3,7 +3,7 @@
 #include "cases/analysis/work_precision.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 Json json_of(const Furthest& furthest, const Scene& scene) {
@@ -93,4 +93,4 @@ Json work_precision_json(const Results& results, const CaseResult& result) {
   return tables;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

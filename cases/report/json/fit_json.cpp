@@ -4,7 +4,7 @@
 
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // JSON has no infinity and no NaN.
@@ -51,4 +51,4 @@ Json fit_json(const FitInput& input, const FitResult& fit) {
           {"held_out", fit.held_out ? json_of_errors(*fit.held_out) : Json(nullptr)}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,8 +4,8 @@
 #include "cases/analysis/fitting/fitting.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 Json fit_json(const FitInput& input, const FitResult& fit);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -7,7 +7,7 @@
 #include "cases/analysis/frontier.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // A percentile that lies among failed cases is infinite: null.
@@ -73,4 +73,4 @@ Json recommendation_json(const Results& results) {
   return json;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,7 +4,7 @@
 #include "cases/results/results.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // An array: all cases (`family` is empty), and each family if there are several.
 Json frontier_json(const Results& results);
@@ -13,4 +13,4 @@ Json frontier_json(const Results& results);
 // none is within it.
 Json recommendation_json(const Results& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -21,7 +21,7 @@
 #include "cases/truth/provenance.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr int kSchemaVersion = 2;
@@ -221,4 +221,4 @@ std::string json_report(const Results& results) {
   return text + "\n}\n";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,8 +4,8 @@
 #include "cases/results/results.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 Json results_json(const Results& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

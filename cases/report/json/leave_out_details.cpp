@@ -7,7 +7,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Includes metrics that nobody requested, which differ from those that do not apply.
@@ -121,4 +121,4 @@ void leave_out_details(Json& results) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

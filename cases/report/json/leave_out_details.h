@@ -6,7 +6,7 @@
 
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 inline constexpr std::size_t kMostCasesInDetail = 10;
 
@@ -19,4 +19,4 @@ inline constexpr std::size_t kMostCasesInDetail = 10;
 // nobody requested in any cell of a case are listed once per case: `not_measured`.
 void leave_out_details(Json& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <thread>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 std::string cpu_model() {
@@ -29,4 +29,4 @@ Machine this_machine() {
           static_cast<int>(std::thread::hardware_concurrency())};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct Machine {
   std::string program_version, cpu, compiler, build_type;
@@ -11,4 +11,4 @@ struct Machine {
 };
 Machine this_machine();
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -1,7 +1,7 @@
 #include "cases/report/json/mistakes_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 const char* word_of_verdict(MistakeReport::Verdict verdict) {
@@ -61,4 +61,4 @@ Json mistakes_json(const MistakeReport& report, const std::string& run) {
           {"held_against", report.beside}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

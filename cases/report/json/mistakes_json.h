@@ -6,9 +6,9 @@
 #include "cases/analysis/mistakes/finder.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // `run`: as it was named.
 Json mistakes_json(const MistakeReport& report, const std::string& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

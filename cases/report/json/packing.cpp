@@ -7,7 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -105,4 +105,4 @@ std::string inflated(const std::string& bytes, std::size_t limit) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline report {
 
 class Bytes {
  public:
@@ -36,4 +36,4 @@ std::string deflated(const std::string& bytes);  // as zlib writes it (RFC 1950)
 std::string from_base64(std::string_view text);
 std::string inflated(const std::string& bytes, std::size_t limit);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

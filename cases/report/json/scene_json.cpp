@@ -6,7 +6,7 @@
 #include "core/base/json.h"
 #include "core/scene/toml/writing/scene_writer.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -76,4 +76,4 @@ Json json_of(const Scene& scene) {
   return json;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,8 +4,8 @@
 #include "core/base/json_fwd.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 Json json_of(const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

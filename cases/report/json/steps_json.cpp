@@ -5,7 +5,7 @@
 #include "cases/analysis/step_needed.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Of one tolerance: null where no step keeps it.
@@ -65,4 +65,4 @@ Json relative_errors_json(const Results& results) {
   return rows;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

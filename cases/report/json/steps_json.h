@@ -5,10 +5,10 @@
 #include "cases/results/results.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 Json steps_needed_json(const Results& results, const CaseResult& result);
 Json steps_over_cases_json(const Results& results);
 Json relative_errors_json(const Results& results);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -9,7 +9,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Text of other people: bytes that are no UTF-8 and characters that XML 1.0 does not allow at all become U+FFFD or '?'.
@@ -158,4 +158,4 @@ std::string junit_report(const Results& results) {
                      counts_of(tests, failures, errors, skipped, results.wall_seconds), suites);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -23,7 +23,7 @@
 #include "cases/report/wording/recorded_error.h"
 #include "cases/report/wording/verdict_matrix.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 std::string explained_markdown(const std::vector<ExplainedRow>& rows) {
@@ -272,4 +272,4 @@ std::string markdown_report(const Results& results) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

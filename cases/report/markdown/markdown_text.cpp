@@ -1,6 +1,6 @@
 #include "cases/report/markdown/markdown_text.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string plain(const std::string& text) {
   std::string out;
@@ -17,4 +17,4 @@ std::string plain(const std::string& text) {
   return out;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

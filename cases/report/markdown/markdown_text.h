@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline report {
 
 // Nothing in it ends a table's cell, opens a tag, becomes a link or changes the type.
 std::string plain(const std::string& text);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr std::size_t kWorthIt = 40;  // bytes: below that an ellipsis costs more than it saves
@@ -27,4 +27,4 @@ std::string SaidBefore::shortened(const std::string& paragraph) {
   return paragraph;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

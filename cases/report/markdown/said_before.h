@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace rigor {
+namespace rigor::inline report {
 
 class SaidBefore {
  public:
@@ -16,4 +16,4 @@ class SaidBefore {
   std::set<std::string> ends_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

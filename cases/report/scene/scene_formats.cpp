@@ -6,7 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 const std::vector<SceneFormat>& scene_formats() {
   static const std::vector<SceneFormat> formats = {{"mjcf", mjcf_of}, {"sdf", sdf_scene}};
@@ -23,4 +23,4 @@ const SceneFormat& find_scene_format(const std::string& name) {
       fmt::format("--format: there is no '{}'{}; there is: {}", name, did_you_mean(name, names), listed(names)));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "core/scene/link_model.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct SceneFormat {
   std::string name;
@@ -19,4 +19,4 @@ const SceneFormat& find_scene_format(const std::string& name);  // throws InputE
 
 std::string sdf_scene(const Scene& scene, LeftOut& left_out);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

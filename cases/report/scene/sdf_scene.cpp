@@ -7,7 +7,7 @@
 
 #include "cases/report/scene/scene_formats.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 std::string sdf_numbers(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
@@ -234,4 +234,4 @@ class SdfWriter {
 
 std::string sdf_scene(const Scene& scene, LeftOut& left_out) { return SdfWriter(scene, left_out).text(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "core/base/content_hash.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr std::size_t kLongestName = 150;  // bytes; file systems take 255
@@ -53,4 +53,4 @@ std::string back_to_root(const std::string& address) {
   return back;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string safe_name(const std::string& name);     // of one part; a long one is cut and ends in its hash
 std::string safe_path(const std::string& case_id);  // of each part between the slashes
@@ -19,4 +19,4 @@ std::string case_data_address(const std::string& case_id);   // "api/cases/sprin
 // From a file at this address back to the site's folder: "../../".
 std::string back_to_root(const std::string& address);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -5,7 +5,7 @@
 #include "cases/report/site/site_pages.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // White text on each has a contrast of 4.5 or more.
@@ -44,4 +44,4 @@ std::string badge_of(const SiteData& data, std::size_t run) {
       kLeftPart - 14, kLeftPart + width / 2, width - 12);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

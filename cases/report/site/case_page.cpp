@@ -9,7 +9,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 Json motions_of(const SiteData& data, const std::string& case_id, const Json& shown) {
@@ -56,4 +56,4 @@ std::string case_page(const SiteData& data, const std::string& case_id, const Js
          fmt::format("<script src=\"{}page.js\"></script>\n</body>\n</html>\n", root);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

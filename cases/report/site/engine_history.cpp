@@ -8,7 +8,7 @@
 
 #include "cases/results/baseline.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Of this engine alone. Its version stands in the place of the commit.
@@ -74,4 +74,4 @@ EngineHistory history_of_engine(const SiteData& data, const EngineRuns& engine) 
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

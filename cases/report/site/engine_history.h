@@ -7,7 +7,7 @@
 #include "cases/analysis/cell_history.h"
 #include "cases/report/site/site_data.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // A step of a cell's error: the first entry of a new level.
 struct ErrorStep {
@@ -25,4 +25,4 @@ struct EngineHistory {
 
 EngineHistory history_of_engine(const SiteData& data, const EngineRuns& engine);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -11,7 +11,7 @@
 #include "cases/report/wording/wording.h"
 #include "cases/results/main_error.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr const char* kRootOfEngines = "../";
@@ -187,4 +187,4 @@ std::string engine_page(const SiteData& data, const EngineRuns& engine, const En
   return site_page(engine_page_address(engine.engine), "Rigor: " + engine.engine, body);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -8,7 +8,7 @@
 #include "cases/report/site/site_pages.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 std::string family_label(const std::string& family) { return family.empty() ? "cases" : family; }
@@ -124,4 +124,4 @@ std::string index_page(const SiteData& data) {
   return site_page("index.html", "Rigor: how accurate engines are", body);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 using Names = std::set<std::string>;
@@ -197,4 +197,4 @@ MergedResults merged_results(std::vector<WrittenFolder> folders, std::vector<std
   return out;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -8,7 +8,7 @@
 #include "cases/report/site/written_folder.h"
 #include "cases/results/cell_key.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct MergedResults {
   Json results = nullptr;           // a results.json of all current cells; engines[].made_by is the version of Rigor
@@ -24,4 +24,4 @@ struct MergedResults {
 // InputError if two folders hold a cell of one version with different values: such a run does not repeat.
 MergedResults merged_results(std::vector<WrittenFolder> folders, std::vector<std::string>& notes);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

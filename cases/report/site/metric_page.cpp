@@ -10,7 +10,7 @@
 #include "cases/report/wording/wording.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr const char* kRootOfMetrics = "../";
@@ -86,4 +86,4 @@ std::string metric_page(const SiteData& data, const Json& metric) {
   return site_page(metric_page_address(name), "Rigor: " + name, body);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

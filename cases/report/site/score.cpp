@@ -7,7 +7,7 @@
 
 #include "cases/analysis/cell_error.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 bool is_of_family(const CaseResult& result, const std::string& family) {
@@ -94,4 +94,4 @@ std::size_t main_run(const Results& results, const EngineRuns& engine) {
   return engine.runs.front();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -7,7 +7,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // A case counts where it has this step, an error in m or rad against a truth that is independent of the run, and where
 // the engine supports it. A cell without a result, or with a motion that is wrong as a whole, counts as not within.
@@ -47,4 +47,4 @@ std::vector<EngineRuns> engines_of(const Results& results);
 // The run that an engine's badge is about: the one of the engine's plain name, else its first.
 std::size_t main_run(const Results& results, const EngineRuns& engine);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -15,7 +15,7 @@
 #include "core/base/json.h"
 #include "core/base/json_words.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 SiteData read_inputs(const std::vector<std::string>& inputs, std::vector<std::string>& notes) {
@@ -91,4 +91,4 @@ std::vector<SiteFile> site_files(const std::vector<std::string>& inputs, std::ve
   throw InputError(fmt::format("rigor site: a results.json is not whole: {}", in_words(error)));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct SiteFile {
   std::string address;  // below the site's folder
@@ -19,4 +19,4 @@ std::vector<SiteFile> site_files(const std::vector<std::string>& inputs, std::ve
 // that are not of a site, or cannot be written.
 void write_site(const std::string& folder, const std::vector<SiteFile>& files);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

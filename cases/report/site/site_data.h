@@ -7,7 +7,7 @@
 #include "cases/report/site/merged_results.h"
 #include "cases/report/site/score.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct SiteData {
   MergedResults merged;
@@ -18,4 +18,4 @@ struct SiteData {
   std::vector<HistoryEntry> history;  // the oldest first
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

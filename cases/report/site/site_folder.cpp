@@ -13,7 +13,7 @@
 #include "cases/report/site/site.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ void write_site(const std::string& folder, const std::vector<SiteFile>& files) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

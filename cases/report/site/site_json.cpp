@@ -11,7 +11,7 @@
 #include "cases/results/result_json.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr int kSiteSchema = 1;
@@ -133,4 +133,4 @@ Json case_data(const SiteData& data, const Json& of_results, std::size_t of_case
   return json;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

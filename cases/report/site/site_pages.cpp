@@ -11,7 +11,7 @@
 #include "cases/report/wording/wording.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string site_head(const std::string& title, const std::string& policy) {
   return fmt::format(
@@ -124,4 +124,4 @@ std::vector<Json> parts_by_case(const Json& results) {
   return cases;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -9,7 +9,7 @@
 #include "cases/report/site/site_data.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string index_page(const SiteData& data);
 std::string engine_page(const SiteData& data, const EngineRuns& engine, const EngineHistory& history);
@@ -45,4 +45,4 @@ std::vector<DeviationRow> deviations_of(const SiteData& data, const EngineRuns& 
 // The settings in force of a run: each value, and in how many cells it was in force.
 std::map<std::string, std::map<std::string, std::size_t>> settings_of(const SiteData& data, std::size_t run);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -18,7 +18,7 @@
 #include "core/base/json.h"
 #include "core/base/json_words.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ WrittenFolder read_written_folder(const std::string& path, std::vector<std::stri
   return folder;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -9,7 +9,7 @@
 #include "cases/results/history.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct WrittenFolder {
   std::string path;                 // as given
@@ -26,4 +26,4 @@ struct WrittenFolder {
 // and `notes` says so.
 WrittenFolder read_written_folder(const std::string& path, std::vector<std::string>& notes);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

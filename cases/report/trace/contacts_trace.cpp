@@ -3,7 +3,7 @@
 #include "cases/report/csv/trajectory_csv.h"
 #include "cases/report/trace/trace_formats.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 class ContactsTrace : public TraceWriter {
@@ -39,4 +39,4 @@ class ContactsTrace : public TraceWriter {
 
 std::unique_ptr<TraceWriter> contacts_trace(const Scene& scene) { return std::make_unique<ContactsTrace>(scene); }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -13,7 +13,7 @@
 #include "core/base/json.h"
 #include "core/base/rotation_between.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 enum Component { kUnsignedShort = 5123, kFloat = 5126 };
@@ -274,4 +274,4 @@ std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene, bool has_contacts) {
   return std::make_unique<GltfTrace>(scene, has_contacts);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -5,7 +5,7 @@
 #include "cases/report/trace/trace_formats.h"
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 Json numbers_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -47,4 +47,4 @@ std::unique_ptr<TraceWriter> jsonl_trace(const Scene& scene, bool has_contacts) 
   return std::make_unique<JsonLinesTrace>(scene, has_contacts);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

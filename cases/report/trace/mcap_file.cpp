@@ -2,7 +2,7 @@
 
 #include "cases/case/recording/mcap_records.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr std::size_t kChunkSize = 1 << 20;  // bytes, uncompressed as they stand
@@ -99,4 +99,4 @@ std::string McapFile::end() {
          std::string(mcap::kMagic);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

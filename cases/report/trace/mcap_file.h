@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline report {
 
 class McapFile {
  public:
@@ -42,4 +42,4 @@ class McapFile {
   std::vector<ChunkIndex> chunks_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

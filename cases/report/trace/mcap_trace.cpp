@@ -9,7 +9,7 @@
 #include "core/base/json.h"
 #include "core/base/rotation_between.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr const char* kRoot = "world";
@@ -228,4 +228,4 @@ std::unique_ptr<TraceWriter> mcap_trace(const Scene& scene, bool has_contacts) {
   return std::make_unique<McapTrace>(scene, has_contacts);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

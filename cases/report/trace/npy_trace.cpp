@@ -9,7 +9,7 @@
 #include "cases/report/trace/trace_formats.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the rows are little-endian");
@@ -79,4 +79,4 @@ std::unique_ptr<TraceWriter> npy_trace(const Scene& scene, bool has_contacts) {
   return std::make_unique<NpyTrace>(scene);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,7 +4,7 @@
 #include "cases/report/csv/reaction_csv.h"
 #include "cases/report/trace/trace_formats.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 class ReactionsTrace : public TraceWriter {
@@ -34,4 +34,4 @@ class ReactionsTrace : public TraceWriter {
 
 std::unique_ptr<TraceWriter> reactions_trace(const Scene& scene) { return std::make_unique<ReactionsTrace>(scene); }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -9,7 +9,7 @@
 #include "core/base/near_match.h"
 #include "core/base/rotation_between.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 class CsvTrace : public TraceWriter {
@@ -75,4 +75,4 @@ BodyPose pose_of_plane(const Plane& plane) {
   return {plane.normal * plane.offset, rotation_between(Vec3::UnitZ(), plane.normal)};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

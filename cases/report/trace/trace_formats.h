@@ -9,7 +9,7 @@
 #include "core/engine/trajectory.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 class TraceWriter {
  public:
@@ -32,7 +32,7 @@ struct TraceFormat {
 const std::vector<TraceFormat>& trace_formats();                // "csv" first, which is the default
 const TraceFormat& find_trace_format(const std::string& name);  // throws InputError
 
-std::unique_ptr<TraceWriter> contacts_trace(const Scene& scene);  // CSV of contact forces in place of bodies
+std::unique_ptr<TraceWriter> contacts_trace(const Scene& scene);   // CSV of contact forces in place of bodies
 std::unique_ptr<TraceWriter> reactions_trace(const Scene& scene);  // CSV of reported joint loads, of every step
 std::unique_ptr<TraceWriter> csv_trace(const Scene& scene, bool has_contacts);
 std::unique_ptr<TraceWriter> gltf_trace(const Scene& scene, bool has_contacts);
@@ -51,4 +51,4 @@ Shape drawn_shape(const Body& body);
 inline constexpr double kDrawnPlane = 10;
 BodyPose pose_of_plane(const Plane& plane);  // its z is the normal
 
-}  // namespace rigor
+}  // namespace rigor::inline report

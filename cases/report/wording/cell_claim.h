@@ -4,7 +4,7 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 inline Claim claim_of_cell(const Results& results, const CaseResult& result, const Cell& cell,
                            const std::string& quantity, double value) {
@@ -16,4 +16,4 @@ inline Claim claim_of_scene(const CaseResult& result, const std::string& quantit
   return {quantity, result.definition.id, "", "", part, value};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -7,7 +7,7 @@
 
 #include "cases/analysis/work_precision.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 const std::string kNone = "-";
@@ -172,4 +172,4 @@ std::vector<Message> work_precision_messages(const Results& results, const CaseR
   return messages;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

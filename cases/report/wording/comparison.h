@@ -7,7 +7,7 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 struct TextTable {
   std::string heading;
@@ -26,4 +26,4 @@ std::vector<TextTable> comparison_tables(const Results& results, const CaseResul
 //   times less at equal cost  likewise; `of_run` is the core's method, and `part` names metric and baseline
 std::vector<Message> work_precision_messages(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

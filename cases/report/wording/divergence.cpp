@@ -8,7 +8,7 @@
 
 #include "cases/report/layout.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr std::size_t kTitleWidth = 10;
@@ -206,4 +206,4 @@ std::string text_of(const Divergence& found, const std::string& run_command, con
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

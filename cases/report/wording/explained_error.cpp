@@ -4,7 +4,7 @@
 
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 std::string text_of(const std::map<std::string, MetricValue>& metrics, const std::string& name,
@@ -35,4 +35,4 @@ std::vector<ExplainedRow> explained_rows(const Results& results, const CaseResul
   return rows;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // total: the engine against the truth. by_scheme: its twin against the truth. unexplained: the engine against its twin,
 // up to the instant `until`. All in words, rounded to what can be read.
@@ -20,4 +20,4 @@ struct ExplainedRow {
 // Of the cells at this step size; none where no run has a twin.
 std::vector<ExplainedRow> explained_rows(const Results& results, const CaseResult& result, const StepSize& dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,7 +4,7 @@
 
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string word_of(Relation relation) {
   switch (relation) {
@@ -45,4 +45,4 @@ std::string Claims::count(Claim claim) {
   return printed(std::move(claim), text);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline report {
 
 enum class Relation { none, below, at_most, above, at_least, equal };
 std::string word_of(Relation relation);  // "", "<", "<=", ">", ">=", "="
@@ -53,4 +53,4 @@ class Claims {
   std::vector<Claim> claims_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr std::size_t kCasesShown = 6;
@@ -115,4 +115,4 @@ std::string text_of(const MistakeReport& report, const std::string& run) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -5,7 +5,7 @@
 
 #include "adapters/plugin/plugins.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 std::string& named_suite() {
@@ -62,4 +62,4 @@ std::string diagnose_command_text(const std::string& case_id, const std::string&
   return pasted(words);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "cases/import/import_options.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // "rigor run 'my case'": the words with blanks between them, in quotes where a shell needs them.
 std::string pasted(const std::vector<std::string>& words);
@@ -20,4 +20,4 @@ void use_imports(const ImportOptions& options);
 // The command that says which known mistake the run's error in this case looks like.
 std::string diagnose_command_text(const std::string& case_id, const std::string& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -8,7 +8,7 @@
 #include "cases/analysis/frontier.h"
 #include "cases/report/wording/findings/recorded_finding.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 class Recommending {
@@ -74,4 +74,4 @@ class Recommending {
 
 std::optional<Message> recommendation(const Results& results) { return Recommending(results).message(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

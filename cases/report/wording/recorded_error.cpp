@@ -5,7 +5,7 @@
 #include "cases/report/wording/wording.h"
 #include "cases/results/trial_results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Mean ± standard deviation, median, worst with its trial; the latter are empty for a single trial. Trials without a
@@ -46,4 +46,4 @@ TextTable recorded_errors(const Results& results, const CaseResult& result) {
   return table;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -4,9 +4,9 @@
 #include "cases/report/wording/comparison.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // No rows where the truth is no recording or no run has an error.
 TextTable recorded_errors(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

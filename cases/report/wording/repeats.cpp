@@ -4,7 +4,7 @@
 
 #include "cases/report/layout.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 std::string difference_text(const RepeatOutcome& outcome) {
@@ -36,4 +36,4 @@ std::string text_of(const RepeatReport& report) {
   return text + fmt::format("  {}\n", report.repeats() ? "It repeats." : "It does not repeat.");
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

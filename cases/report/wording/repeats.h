@@ -5,8 +5,8 @@
 
 #include "cases/analysis/repeats/repeats.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string text_of(const RepeatReport& report);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

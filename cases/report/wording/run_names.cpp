@@ -6,7 +6,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace rigor {
+namespace rigor::inline report {
 
 bool RunNames::is_common(std::size_t run) const {
   const auto is_its = [run](const Cell& cell) { return cell.run == run; };
@@ -50,4 +50,4 @@ std::string RunNames::brief(const std::vector<std::size_t>& runs, std::size_t al
   return named.empty() ? count : all(named) + ", " + count;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -7,7 +7,7 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 class RunNames {
  public:
@@ -32,4 +32,4 @@ class RunNames {
   const Results& results_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -11,7 +11,7 @@
 #include "cases/report/wording/wording.h"
 #include "cases/results/main_error.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Not a number where there is none.
@@ -151,4 +151,4 @@ TextTable verdict_matrix(const Results& results, Words words, const std::vector<
   return matrix;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -8,7 +8,7 @@
 #include "cases/report/wording/comparison.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // At headline_dt(); a case that has no such step is shown at its coarsest, which its row says.
 // With `Words::few` what is stable or unsupported is told by its sign alone, for where many cases stand.
@@ -32,4 +32,4 @@ double size_of(const Scene& scene);
 // radius. " " below 1e-3 or where there is none to show, "░" from there, "▒" from 1e-2, "▓" from 1e-1, "█" from 1 on.
 std::string shade_of(const CaseResult& result, const Cell& cell);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

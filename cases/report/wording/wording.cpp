@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::string listed_names(const std::vector<std::string>& names, std::size_t most) {
   std::string text;
@@ -62,4 +62,4 @@ std::string rounded(double value) {
   return fmt::format("{:.3g}", value);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline report {
 
 // Two or three significant digits: 0.0312, 1.3e-05, 490.
 std::string rounded(double value);
@@ -47,4 +47,4 @@ class GroupedNames {
   std::vector<std::pair<std::string, std::string>> said_;  // the text, and its names
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -10,7 +10,7 @@
 #include "cases/runner/build_identity.h"
 #include "cases/runner/shards/shard.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 std::size_t index_of(const CaseResult& planned, const Results& grid) {
@@ -91,4 +91,4 @@ void forget_what_is_wrong(Journal& journal, const Results& grid, const CaseResul
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

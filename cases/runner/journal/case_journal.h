@@ -9,7 +9,7 @@
 #include "cases/runner/grid.h"
 #include "cases/runner/journal/journal.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // Its file; empty where none is kept. `share`: of the case; 0: all of it.
 std::string journal_of(const CaseResult& planned, const Results& grid, int share, const GridOptions& options);
@@ -30,4 +30,4 @@ PathsOfCells paths_in(const CaseResult& planned, const std::vector<Journal::Reco
 void forget_what_is_wrong(Journal& journal, const Results& grid, const CaseResult& planned, const EngineTable& engines,
                           const GridOptions& options);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

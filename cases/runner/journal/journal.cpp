@@ -10,7 +10,7 @@
 #include "cases/runner/platform/platform.h"
 #include "core/base/content_hash.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 // Before each record; then its message and its path.
@@ -85,4 +85,4 @@ void Journal::append(const std::string& bytes) {
 
 void Journal::add(std::size_t job, const Record& record) { append(framed(job, record)); }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

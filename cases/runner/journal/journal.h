@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-namespace rigor {
+namespace rigor::inline runner {
 
 class Journal {
  public:
@@ -39,4 +39,4 @@ class Journal {
 std::string framed(std::size_t job, const Journal::Record& record);
 bool take_record(const std::string& bytes, std::size_t& at, std::size_t& job, Journal::Record& record);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -24,7 +24,7 @@
 
 extern "C" void __gcov_dump() __attribute__((weak));  // of GCC; null unless the build counts
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,4 +271,4 @@ void write_file(const Platform::Path& file, const std::string& text) {
   if (failure != 0) throw std::runtime_error(std::strerror(failure));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

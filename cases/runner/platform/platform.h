@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline runner {
 
 class Channel;  // process_pool.h
 
@@ -101,4 +101,4 @@ ReadFile read_file(const Platform::Path& file);
 // Throws std::runtime_error with the reason.
 void write_file(const Platform::Path& file, const std::string& text);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -15,7 +15,7 @@
 #include "core/base/json.h"
 #include "core/base/json_words.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 using Subject = MessageSubject;
@@ -292,4 +292,4 @@ Merged fill_in(Results& grid, const std::vector<Part>& parts) {
   return merge.finish(parts);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

@@ -10,7 +10,7 @@
 #include "cases/runner/journal/journal.h"
 #include "cases/runner/shards/shard.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 inline constexpr const char* kPartFile = "part.journal";
 
@@ -64,4 +64,4 @@ struct Merged {
 // Fills in a planned grid. Throws InputError for an invalid answer.
 Merged fill_in(Results& grid, const std::vector<Part>& parts);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

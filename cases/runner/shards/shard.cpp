@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 // Body steps that take about as long as a child process and the judging of its run, and as a truth. How well they are
@@ -116,4 +116,4 @@ Results share_of(const Results& grid, const Shard& shard) {
   return share;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

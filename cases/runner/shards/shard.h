@@ -8,7 +8,7 @@
 
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 struct Shard {
   int index = 1, count = 1;  // from 1 to `count`
@@ -49,4 +49,4 @@ void leave_to_others(CaseResult& result, const Partition::OfCase& of_case, int s
 // The grid with the cases of one shard alone, in their order, and in them as `unsupported` what other shards do.
 Results share_of(const Results& grid, const Shard& shard);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

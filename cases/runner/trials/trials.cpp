@@ -5,7 +5,7 @@
 #include "cases/results/trial_results.h"
 #include "cases/truth/recorded/recorded_motion.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 namespace {
 
 struct Trials {
@@ -141,4 +141,4 @@ Recordings recordings_of_truth(const Case& definition, const Truth& truth, const
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

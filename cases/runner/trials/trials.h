@@ -8,7 +8,7 @@
 #include "cases/case/recording/recording.h"
 #include "cases/runner/case_process.h"
 
-namespace rigor {
+namespace rigor::inline runner {
 
 // Runs one trial; its case starts as the trial does.
 using RunTrial = std::function<JudgedCell(const Case& of_trial, const Truth& truth, const TruthFacts& facts,
@@ -23,4 +23,4 @@ JudgedCell run_trials(const Case& definition, const std::shared_ptr<const Motion
 Recordings recordings_of_truth(const Case& definition, const Truth& truth, const TruthFacts& facts,
                                const Recorders& recorders);
 
-}  // namespace rigor
+}  // namespace rigor::inline runner

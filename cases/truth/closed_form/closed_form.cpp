@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/scene/features/features.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 class ClosedForm final : public Truth {
@@ -68,4 +68,4 @@ void check_needs(const Scene& scene, const std::string& truth, const std::string
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

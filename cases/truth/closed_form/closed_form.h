@@ -12,7 +12,7 @@
 #include "cases/truth/truth.h"
 #include "core/scene/features/feature.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 using Extended = long double;
 using ExtendedVec3 = Eigen::Matrix<Extended, 3, 1>;
@@ -74,4 +74,4 @@ class Parabola {
   ExtendedVec3 start_, velocity_, gravity_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 // m and rad that the terms of a phase can add up to within `elapsed`.
@@ -62,4 +62,4 @@ std::vector<ExtendedVec3> PhasedMotion::way(Extended duration) const {
   return points;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -7,7 +7,7 @@
 
 #include "cases/truth/closed_form/closed_form.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 struct Phase {
   Extended from;  // s
@@ -38,4 +38,4 @@ class PhasedMotion final : public BodyMotion {
   double start_error_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

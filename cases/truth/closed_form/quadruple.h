@@ -6,11 +6,11 @@
 
 #include "cases/truth/closed_form/closed_form.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 using QuadVec3 = Eigen::Matrix<Quad, 3, 1>;
 
 inline Extended rounded(const Quad& number) { return number.convert_to<Extended>(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/rotation_vector.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr double kGap = 5;              // usual intervals; a camera that drops a few frames still follows the motion
@@ -177,4 +177,4 @@ Provenance recording_provenance() {
   return {"recording", "measured motion, independent of every engine and method unless it is synthetic"};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

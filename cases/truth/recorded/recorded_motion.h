@@ -9,7 +9,7 @@
 #include "cases/case/recording/recording.h"
 #include "cases/truth/truth.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 class RecordedMotion final : public Truth {
  public:
@@ -59,4 +59,4 @@ std::unique_ptr<Truth> truth_of(const Case& definition, double duration);
 // The case of one trial: its scene starts as the trial does, and it ends with the trial's last sample at the latest.
 Case case_of_trial(const Case& definition, const MotionRecording& recording, std::size_t trial);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -14,7 +14,7 @@
 #include "core/scene/scene.h"
 #include "core/scene/turn_window.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // Whether states have a clock and held efforts.
 inline bool has_clock(const Scene& scene) {
@@ -116,4 +116,4 @@ class AxisDrive {
   std::optional<ServoLaw<Real>> law_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

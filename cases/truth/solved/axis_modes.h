@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline truth {
 
 struct AxisMode {
   int limit = 0;             // x is kept at its lower (-1) or upper (1) one
@@ -46,4 +46,4 @@ inline AxisModes modes_of(const double* numbers, std::size_t axes) {
   return modes;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -8,7 +8,7 @@
 #include "cases/truth/solved/constraint_rows.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 struct AxisMotion {
@@ -56,4 +56,4 @@ RowChoice choose_rows(const RowVector& rows, const Masses& inverse_masses) {
   return some.choice();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -5,7 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 struct IndependentColumns {
@@ -160,4 +160,4 @@ template class ConstraintRows<double, 12>;
 template class ConstraintRows<long double, 6>;
 template class ConstraintRows<long double, 12>;
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

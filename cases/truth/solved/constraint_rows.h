@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline truth {
 
 enum class Residual { gap, rate };
 
@@ -130,4 +130,4 @@ class ConstraintRows {
   mutable Multipliers multipliers_;  // of the last correction
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

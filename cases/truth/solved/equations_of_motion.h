@@ -17,7 +17,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 enum class Formulation { body_rates, momentum };
 
@@ -248,4 +248,4 @@ class EquationsOfMotion<Real>::Interval {
   std::vector<Pose> poses_;  // room to work in
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

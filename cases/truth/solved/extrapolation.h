@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 class Extrapolation {
@@ -90,4 +90,4 @@ class Extrapolation {
   State slope_;  // where the step begins
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -23,11 +23,11 @@ fingerprint(events ${ROOT}/cases/truth/solved/*.h ${ROOT}/cases/truth/solved/*.c
 set(text "// Made by fingerprints.cmake.
 #pragma once
 
-namespace rigor {
+namespace rigor::inline truth {
 
 inline constexpr const char* kReferenceMadeBy = \"${reference}\";
 inline constexpr const char* kEventsMadeBy = \"${events}\";
 
-}  // namespace rigor
+}  // namespace rigor::inline truth
 ")
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "${text}" @ONLY)  # leaves an unchanged file alone

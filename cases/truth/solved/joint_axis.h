@@ -14,7 +14,7 @@
 #include "cases/truth/solved/axis_modes.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 struct JointAxis {
@@ -135,4 +135,4 @@ std::vector<JointAxis<Real>> axes_in_use(const Scene& scene) {
   return axes;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -14,7 +14,7 @@
 #include "cases/truth/solved/newton_euler_joints.h"
 #include "cases/truth/solved/transmissions.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 class JointedMotion {
@@ -225,4 +225,4 @@ class JointedMotion<Real>::Interval {
   std::vector<Block> accelerations_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

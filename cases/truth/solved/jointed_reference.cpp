@@ -7,7 +7,7 @@
 #include "cases/truth/solved/jointed_ways.h"
 #include "cases/truth/solved/reference_solver.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 using namespace solving;
@@ -45,4 +45,4 @@ ReferenceSolution solve_jointed_reference(const Scene& scene, double duration) {
   return again.complete && again.errors.back() < solution.errors.back() ? again : solution;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

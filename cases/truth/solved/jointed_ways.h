@@ -7,7 +7,7 @@
 #include "cases/truth/solved/solving.h"
 #include "cases/truth/solved/stopped_solution.h"
 
-namespace rigor::solving {
+namespace rigor::inline truth::solving {
 
 struct Way {
   int columns;       // of the extrapolation
@@ -32,4 +32,4 @@ enum class Precision { plain, extended };
 void compare_with_natural(Judged& judged, Precision precision, const Scene& scene, const Way& way,
                           const std::vector<double>& switches);
 
-}  // namespace rigor::solving
+}  // namespace rigor::inline truth::solving

@@ -1,7 +1,7 @@
 #include "cases/truth/solved/jointed_ways.h"
 #include "cases/truth/solved/natural_coordinates.h"
 
-namespace rigor::solving {
+namespace rigor::inline truth::solving {
 namespace {
 
 template <typename Real>
@@ -19,4 +19,4 @@ void compare_with_natural(Judged& judged, Precision precision, const Scene& scen
   compare_with<double>(judged, scene, way, switches);
 }
 
-}  // namespace rigor::solving
+}  // namespace rigor::inline truth::solving

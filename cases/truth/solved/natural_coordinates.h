@@ -21,7 +21,7 @@
 #include "core/base/eigen_of.h"
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 class NaturalCoordinates {
@@ -369,4 +369,4 @@ class NaturalCoordinates<Real>::Interval {
   std::vector<Block> accelerations_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 struct NaturalFrame {
@@ -42,4 +42,4 @@ struct NaturalFrame {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -14,7 +14,7 @@
 #include "cases/truth/solved/natural_frame.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 class NaturalJoints {
@@ -206,4 +206,4 @@ class NaturalJoints {
   std::vector<Squared> squares_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -1,7 +1,7 @@
 #include "cases/truth/solved/jointed_motion.h"
 #include "cases/truth/solved/jointed_ways.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 using InPhases = solving::PhasedMotion<JointedMotion<double>>;
@@ -23,4 +23,4 @@ Nodes newton_euler_nodes(const Scene& scene, const Way& way, const std::vector<d
 }
 
 }  // namespace solving
-}  // namespace rigor
+}  // namespace rigor::inline truth

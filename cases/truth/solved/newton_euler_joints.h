@@ -18,7 +18,7 @@
 #include "cases/truth/solved/constraint_rows.h"
 #include "cases/truth/solved/equations_of_motion.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 class NewtonEulerJoints {
@@ -203,4 +203,4 @@ class NewtonEulerJoints {
   std::vector<Distance> distances_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

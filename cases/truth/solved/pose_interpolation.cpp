@@ -2,7 +2,7 @@
 
 #include "core/base/rotation_vector.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 struct Cubic {
@@ -24,4 +24,4 @@ BodyState between(const BodyState& from, const BodyState& to, double h, double s
           left_jacobian(turning.value) * turning.rate};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -5,9 +5,9 @@
 
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // At the share s, in [0, 1], of the time h [s] between them; it turns by less than half a turn.
 BodyState between(const BodyState& from, const BodyState& to, double h, double s);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

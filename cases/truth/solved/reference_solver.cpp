@@ -14,7 +14,7 @@
 #include "cases/truth/solved/extrapolation.h"
 #include "cases/truth/solved/solving.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 using namespace solving;
@@ -83,4 +83,4 @@ ReferenceSolution solve_reference(const Scene& scene, double duration) {
   return quad.complete && quad.errors.back() < extended.errors.back() ? quad : extended;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

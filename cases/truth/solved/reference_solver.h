@@ -7,7 +7,7 @@
 #include "cases/truth/solved/equations_of_motion.h"
 #include "core/dynamics/contact/contact_method.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 inline constexpr Formulation kReferenceForm = Formulation::body_rates;
 
@@ -44,4 +44,4 @@ std::unique_ptr<solving::DoubleMotion> reference_motion(const Scene& scene, cons
 ReferenceSolution solve_jointed_reference(const Scene& scene, double duration);
 std::unique_ptr<solving::DoubleMotion> jointed_motion_in_double(const Scene& scene, const ReferenceSolution& solution);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -17,7 +17,7 @@
 #include "core/scene/toml/writing/scene_writer.h"
 #include "solver_fingerprints.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 namespace fs = std::filesystem;
@@ -265,4 +265,4 @@ ReferenceSolution kept_or_solved(const std::string& content, const std::function
   return solution;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -10,7 +10,7 @@
 
 #include "cases/truth/solved/reference_solver.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // All inputs of a reference solution, bit by bit: every number of the scene that affects its motion, the duration, and
 // this program's sources and compiler (fingerprints.cmake), unless another maker is given. Names, shapes and contacts
@@ -26,4 +26,4 @@ void keep_solution(const std::string& content, const ReferenceSolution& solution
 // The one that is kept, or else the one that `solve` makes, from now on kept.
 ReferenceSolution kept_or_solved(const std::string& content, const std::function<ReferenceSolution()>& solve);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

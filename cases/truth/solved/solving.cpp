@@ -7,7 +7,7 @@
 
 #include "cases/truth/distance.h"
 
-namespace rigor::solving {
+namespace rigor::inline truth::solving {
 namespace {
 
 constexpr double kFillTolerance = 1e-15;  // some five roundings of a double
@@ -129,4 +129,4 @@ ReferenceSolution Judged::solution() {
   return std::move(solution_);
 }
 
-}  // namespace rigor::solving
+}  // namespace rigor::inline truth::solving

@@ -12,7 +12,7 @@
 
 #include "cases/truth/solved/reference_solver.h"
 
-namespace rigor::solving {
+namespace rigor::inline truth::solving {
 
 using Extended = long double;
 
@@ -162,4 +162,4 @@ class Judged {
   std::vector<std::pair<double, double>> errors_;  // at times
 };
 
-}  // namespace rigor::solving
+}  // namespace rigor::inline truth::solving

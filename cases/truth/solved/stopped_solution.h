@@ -15,7 +15,7 @@
 #include "cases/truth/solved/solving.h"
 #include "cases/truth/solved/stops.h"
 
-namespace rigor::solving {
+namespace rigor::inline truth::solving {
 
 template <typename Motion, typename Stepper>
 class StoppedSolution {
@@ -249,4 +249,4 @@ class PhasedMotion {
   std::vector<Phase> phases_;
 };
 
-}  // namespace rigor::solving
+}  // namespace rigor::inline truth::solving

@@ -15,7 +15,7 @@
 #include "cases/truth/solved/axis_rows.h"
 #include "cases/truth/solved/joint_axis.h"
 
-namespace rigor::solving {
+namespace rigor::inline truth::solving {
 
 inline constexpr double kTouch = 1e-11;     // rad, m: an event's time is located to a thousandth of that
 inline constexpr double kSameSpeed = 1e-9;  // rad/s, m/s
@@ -278,4 +278,4 @@ class Stops {
   std::vector<int> touched_;  // of each axis: the limit at which it is, or 0
 };
 
-}  // namespace rigor::solving
+}  // namespace rigor::inline truth::solving

@@ -13,7 +13,7 @@
 #include "cases/truth/solved/constraint_rows.h"
 #include "cases/truth/solved/joint_axis.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 template <typename Real>
 class Transmissions {
@@ -98,4 +98,4 @@ class Transmissions {
   std::vector<Thread> threads_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

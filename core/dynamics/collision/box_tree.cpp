@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kBitsOfAxis = 10;
@@ -124,4 +124,4 @@ BoxTree::Places BoxTree::overlapping(const Aabb& box, Scratch& scratch) const {
   return {first, last};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 
 #include "core/dynamics/collision/colliders.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class BoxTree {
  public:
@@ -50,4 +50,4 @@ class BoxTree {
   std::size_t changes_ = 0;   // since the order was renewed
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

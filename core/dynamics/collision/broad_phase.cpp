@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Finds the pairs of changed boxes: each changed box with all unchanged ones, and with the changed ones that follow it.
 void BroadPhase::search(int place, const std::vector<Aabb>& boxes, Part& part) const {
@@ -68,4 +68,4 @@ const std::vector<std::pair<int, int>>& BroadPhase::overlaps(const std::vector<A
   return pairs_;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 #include "core/base/thread_pool.h"
 #include "core/dynamics/collision/box_tree.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class BroadPhase {
  public:
@@ -38,4 +38,4 @@ class BroadPhase {
   Pairs pairs_, kept_, found_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

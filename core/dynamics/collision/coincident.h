@@ -6,7 +6,7 @@
 
 #include "core/dynamics/collision/colliders.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Evenly spread over [-1/2, 1/2]³ (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
 inline Vec3 direction_of_its_own(const Collider& collider) {
@@ -23,4 +23,4 @@ inline Vec3 aside_of(const Collider& a, const Vec3& p_a, const Collider& b, cons
   return kAside * size * (direction_of_its_own(a) - direction_of_its_own(b));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

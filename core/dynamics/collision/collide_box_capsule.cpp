@@ -9,7 +9,7 @@
 
 #include "core/dynamics/collision/side_by_side.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // In the box's frame: the points c + s u with |s| <= half.
@@ -157,4 +157,4 @@ void collide_box_capsule(const Box& box, const Pose& pose_a, const Capsule& caps
   add(deepest, best.separation, 2);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

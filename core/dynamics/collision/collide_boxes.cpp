@@ -7,7 +7,7 @@
 
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // An edge pair must be separated further than the best face by this share of the smallest half-length. The edges of
@@ -201,4 +201,4 @@ void collide_boxes(const Box& box_a, const Pose& pose_a, const Box& box_b, const
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -12,7 +12,7 @@
 #include "core/dynamics/collision/placed_hull.h"
 #include "core/dynamics/collision/side_by_side.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kHullFacePreference =
@@ -356,4 +356,4 @@ void collide_capsule_hull(const Capsule& a, const Pose& pose_a, const Convex& b,
   add(best.at, best.separation, 2);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 
 #include "core/dynamics/collision/curved/curved_ways.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 void collide_end_plane(const CurvedSolid& cylinder, const Disc& end, const Plane& b, double nearly, Manifold& out) {
   const auto add = [&](const Vec3& at, std::uint32_t feature) {
@@ -49,4 +49,4 @@ void collide_ellipsoid_sphere(const Ellipsoid& a, const Pose& pose_a, const Sphe
   out.add(-n_W, pose_b.p - (b.radius + 0.5 * gap) * n_W, gap, 0);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

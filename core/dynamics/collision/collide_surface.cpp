@@ -11,7 +11,7 @@
 #include "core/dynamics/collision/placed_hull.h"
 #include "core/dynamics/collision/surface_contacts.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -232,4 +232,4 @@ void collide_surface(const Sphere& a, const Pose& pose_a, const TriangleSurface&
   collide_round(shape, a.radius, b, pose_b, out);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -1,6 +1,6 @@
 #include "core/dynamics/collision/colliders.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // What a shape fills along W's axes, relative to the pose's origin.
@@ -69,4 +69,4 @@ Aabb aabb_of(const Shape& shape, const Pose& pose, double margin) {
   return {pose.p + (extent.low - Vec3::Constant(margin)), pose.p + (extent.high + Vec3::Constant(margin))};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

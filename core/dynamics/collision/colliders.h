@@ -6,7 +6,7 @@
 #include "core/dynamics/collision/narrow_phase.h"
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // What a shape fills, along W's axes. A plane's is unbounded.
 struct Aabb {
@@ -27,4 +27,4 @@ Pose pose_of(BodyColumns state, int body);
 // `margin` is added on all sides.
 Aabb aabb_of(const Shape& shape, const Pose& pose, double margin);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Calls add(centre, radius) for balls whose hull encloses the shape, as far as it reaches along n.
@@ -100,4 +100,4 @@ bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from
   return is_clear(from, 0.5 * h) && is_clear(to, -0.5 * h);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 
 #include "core/dynamics/collision/colliders.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // A state, and the axis (unit, in W, from b to a) along which the two are furthest apart there.
 struct SeparatingAxis {
@@ -28,4 +28,4 @@ double reach_at_most(const Collider& collider, BodyColumns state, const Vec3& n,
 bool stay_apart(const Collider& a, const Collider& b, const SeparatingAxis& from, const SeparatingAxis& to,
                 const Bend& bend_a, const Bend& bend_b, double h, double missed);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

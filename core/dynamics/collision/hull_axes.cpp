@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kShareOfBall = 1 - 1e-9;  // of an inscribed ball: what is inside in spite of rounding
@@ -127,4 +127,4 @@ HullAxis best_edges_of(PlacedHull& a, PlacedHull& b, double found) {
   return best;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 #include "core/dynamics/collision/curved/collide_curved.h"
 #include "core/dynamics/collision/side_by_side.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Two balls; every pair of round shapes reduces to them. If the centres coincide, any direction is used.
@@ -227,4 +227,4 @@ void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pos
   std::visit(Collide{a, b, pose_a, pose_b, out, far}, a, b);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

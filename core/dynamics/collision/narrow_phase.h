@@ -11,7 +11,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct Pose {
   Vec3 p = Vec3::Zero();      // m, p_WB
@@ -83,4 +83,4 @@ void collide_surface(const Sphere& a, const Pose& pose_a, const TriangleSurface&
 void collide_ellipsoid_sphere(const Ellipsoid& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
                               Manifold& out);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Bounds of the slack, relative to the largest radius. The lower bound is needed because resting balls may begin to
@@ -81,4 +81,4 @@ void NeighbourList::search(BodyColumns state) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -6,14 +6,16 @@
 #include "core/dynamics/collision/broad_phase.h"
 #include "core/dynamics/model/body_constants.h"
 
-namespace rigor {
+namespace rigor::inline engine {
+class StateArchive;
+}
+
+namespace rigor::inline dynamics {
 
 struct Ball {
   int body;
   double radius;  // m
 };
-
-class StateArchive;
 
 class NeighbourList {
  public:
@@ -42,4 +44,4 @@ class NeighbourList {
   std::vector<std::pair<int, int>> pairs_;                  // that overlap
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -1,6 +1,6 @@
 #include "core/dynamics/collision/placed_hull.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 const Hull& unit_cube_hull() {
@@ -34,4 +34,4 @@ void PlacedHull::place(const Hull& of, const Vec3& stretch, double its_inradius,
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

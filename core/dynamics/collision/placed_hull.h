@@ -6,7 +6,7 @@
 
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // The vectors keep their memory from one placing to the next.
 struct PlacedHull {
@@ -45,4 +45,4 @@ HullAxis best_face_of(PlacedHull& of, const PlacedHull& other);
 // Over pairs of edges, after both calls of best_face_of(), that can separate more than `found` [m].
 HullAxis best_edges_of(PlacedHull& a, PlacedHull& b, double found);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

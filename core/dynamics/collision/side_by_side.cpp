@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 double sine_squared(const RoundLine& a, const RoundLine& b) { return a.direction.cross(b.direction).squaredNorm(); }
@@ -65,4 +65,4 @@ bool add_side_by_side(const RoundLine& a, const RoundLine& b, Manifold& out) {
   return true;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct RoundLine {
   Vec3 centre, direction;  // m and unit, in W
@@ -32,4 +32,4 @@ void add_on_lines(const RoundLine& a, double s, const RoundLine& b, double t, st
 // other.
 bool add_side_by_side(const RoundLine& a, const RoundLine& b, Manifold& out);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

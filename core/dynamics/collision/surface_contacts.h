@@ -10,7 +10,7 @@
 
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 inline constexpr double kOnTriangle = 1e-9;  // of a triangle's size: a point on the seam of two lies on one at least
 inline constexpr double kAcross = 1e-9;      // the sine between lines that cross
@@ -139,4 +139,4 @@ inline Pose seen_from(const Pose& frame, const Pose& pose) {
   return {frame.R.transpose() * (pose.p - frame.p), frame.R.transpose() * pose.R};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

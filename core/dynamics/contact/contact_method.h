@@ -13,7 +13,7 @@
 #include "core/scene/features/features.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class JointStops;
 
@@ -76,4 +76,4 @@ std::unique_ptr<ContactStepper> make_contact_stepper(const Scene& scene, const C
   return std::make_unique<S>(scene, parts);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

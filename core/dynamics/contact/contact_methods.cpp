@@ -3,7 +3,7 @@
 
 #include "core/dynamics/contact/contact_method.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 extern const ContactMethod kCourseContact, kEventContact, kImpulseContact, kSoftContact;
 
@@ -42,4 +42,4 @@ const ContactMethod& contact_method_for(const Scene& scene) {
   return found == table.end() ? table.front() : *found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

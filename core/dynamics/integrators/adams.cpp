@@ -16,7 +16,7 @@
 #include "core/dynamics/model/motion_equations.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kParts = 4;  // steps of the formula in a step of the method
@@ -196,4 +196,4 @@ const Integrator kAdams = {
     .make = make_stepper<Adams>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

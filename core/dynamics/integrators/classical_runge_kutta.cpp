@@ -4,7 +4,7 @@
 
 #include "core/dynamics/joints/joints.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 namespace {
 
@@ -59,4 +59,4 @@ void ClassicalRungeKutta::take_stage(std::size_t s, const Bodies& block, Mutable
   stage(block, tables, wrench, where, dt * kWeight[s], dt * kNextStage[s]);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

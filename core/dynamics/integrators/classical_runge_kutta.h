@@ -10,7 +10,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/model/wrench_columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 enum class OrientationChart { quaternion, rotation_vector };
 
@@ -32,4 +32,4 @@ class ClassicalRungeKutta : public Stepper {
   Wrenches wrenches_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

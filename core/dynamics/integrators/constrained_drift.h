@@ -9,7 +9,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/joints/joints.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ConstrainedDrift {
  public:
@@ -61,4 +61,4 @@ class ConstrainedDrift {
   Columns momenta_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 bool Continuation::goes_on(BodyColumns state, double t, double dt, const Loads& loads, double oldest) const {
   constexpr double kRounding = 1e-9;  // of a clock that does not add up its steps, in dt
@@ -15,4 +15,4 @@ bool Continuation::goes_on(BodyColumns state, double t, double dt, const Loads& 
   return true;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

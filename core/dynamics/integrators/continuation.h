@@ -4,7 +4,7 @@
 #include "core/dynamics/model/loads/loads.h"
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class Continuation {
  public:
@@ -25,4 +25,4 @@ class Continuation {
   double t_ = 0, dt_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -16,7 +16,7 @@
 #include "core/engine/option_values.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 using dormand_prince::kStages;
@@ -148,4 +148,4 @@ const Integrator kDormandPrince = {
     .make = make_stepper<DormandPrince>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace rigor::dormand_prince {
+namespace rigor::inline dynamics::dormand_prince {
 
 inline constexpr std::size_t kStages = 12;
 using Row = std::array<double, kStages>;
@@ -74,4 +74,4 @@ inline constexpr Row kError3 = {kWeight[0] - 0.244094488188976377952755905512,
                                 kWeight[10],
                                 kWeight[11] - 0.220588235294117647058823529412e-1};
 
-}  // namespace rigor::dormand_prince
+}  // namespace rigor::inline dynamics::dormand_prince

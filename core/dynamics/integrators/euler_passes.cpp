@@ -1,6 +1,6 @@
 #include "core/dynamics/integrators/euler_passes.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 struct Rates {
@@ -55,4 +55,4 @@ void EulerPasses::kick_and_drift_at_once(const Bodies& block, MutableBodyColumns
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/kernels/kernels.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class EulerPasses {
  public:
@@ -23,4 +23,4 @@ class EulerPasses {
   const OrientationUpdate& orientation_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

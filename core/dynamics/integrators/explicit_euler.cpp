@@ -5,7 +5,7 @@
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/wrench_columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 class ExplicitEuler : public Stepper {
@@ -45,4 +45,4 @@ const Integrator kExplicitEuler = {
     .make = make_stepper<ExplicitEuler>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

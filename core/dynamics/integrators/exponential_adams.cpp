@@ -20,7 +20,7 @@
 #include "core/dynamics/model/loads/load_jacobian.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 using Vec12 = Eigen::Matrix<double, 12, 1>;
@@ -296,4 +296,4 @@ const Integrator kExponentialAdams = {
     .make = make_stepper<ExponentialAdams>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

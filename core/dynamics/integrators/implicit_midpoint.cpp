@@ -13,7 +13,7 @@
 #include "core/dynamics/model/block_system.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kMostIterations = 50;
@@ -160,4 +160,4 @@ const Integrator kImplicitMidpoint = {
     .make = make_stepper<ImplicitMidpoint>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -12,10 +12,13 @@
 #include "core/dynamics/model/system.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline engine {
+class StateArchive;
+}
+
+namespace rigor::inline dynamics {
 
 class Joints;
-class StateArchive;
 
 // Steps one system. A stepper may use its history only if the state and the instant are those of its last step's end.
 class Stepper {
@@ -82,4 +85,4 @@ std::unique_ptr<Stepper> make_stepper(const StepperParts& parts) {
   return std::make_unique<S>(parts);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/joints/joints.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 ConstraintForces* StepperParts::constraints() const { return contact_forces ? contact_forces : joints; }
 
@@ -28,4 +28,4 @@ const Integrator& integrator(const std::string& name) {
   return *row;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kMostEvents = 1000;         // in a step
@@ -118,4 +118,4 @@ void JointEvents::warn(const std::string& what) {
   if (solver_warning_.empty()) solver_warning_ = what;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -10,7 +10,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/joints/joint_stops.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class JointEvents : public Stepper {
  public:
@@ -41,4 +41,4 @@ class JointEvents : public Stepper {
   std::string noted_, solver_warning_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 LeapfrogComposition::LeapfrogComposition(const StepperParts& parts, std::span<const double> weights)
     : parts_(parts), weights_(weights), kick_(parts.system), drift_(parts) {}
@@ -63,4 +63,4 @@ void LeapfrogComposition::kick(MutableBodyColumns state, double h, double t, dou
   if (!kick_.apply(state, h, t, dt, instant)) solver_warning_ = kNoSymmetricKick;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -11,7 +11,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/integrators/symmetric_kick.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class LeapfrogComposition : public Stepper {
  public:
@@ -34,4 +34,4 @@ class LeapfrogComposition : public Stepper {
   std::string solver_warning_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -11,7 +11,7 @@
 #include "core/dynamics/model/block_system.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 class LinearlyImplicitEuler : public Stepper {
@@ -103,4 +103,4 @@ const Integrator kLinearlyImplicitEuler = {
     .make = make_stepper<LinearlyImplicitEuler>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 #include "core/dynamics/integrators/symmetric_kick.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 class MoserVeselov : public Stepper {
@@ -67,4 +67,4 @@ const Integrator kMoserVeselov = {
     .make = make_stepper<MoserVeselov>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

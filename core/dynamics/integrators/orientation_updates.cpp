@@ -5,7 +5,7 @@
 #include <cassert>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // The rotation nearest to R (its orthogonal polar factor); not a number if R is not finite.
@@ -63,4 +63,4 @@ const OrientationUpdate& orientation_update(const std::string& name) {
   return *row;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

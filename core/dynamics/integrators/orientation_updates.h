@@ -11,7 +11,7 @@
 #include "core/dynamics/kernels/kernels.h"
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct OrientationUpdate {
   std::string name;
@@ -23,4 +23,4 @@ struct OrientationUpdate {
 const std::vector<OrientationUpdate>& orientation_updates();           // alphabetical
 const OrientationUpdate& orientation_update(const std::string& name);  // the name must be there
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

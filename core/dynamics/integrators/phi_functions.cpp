@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kLast = 4;
@@ -44,4 +44,4 @@ PhiFunctions phi_functions(const Mat12& z) {
   return phi;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

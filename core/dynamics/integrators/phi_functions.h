@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 using Mat12 = Eigen::Matrix<double, 12, 12>;
 
@@ -15,4 +15,4 @@ using Mat12 = Eigen::Matrix<double, 12, 12>;
 using PhiFunctions = std::array<Mat12, 5>;
 PhiFunctions phi_functions(const Mat12& z);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

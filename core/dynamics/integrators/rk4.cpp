@@ -3,7 +3,7 @@
 // The quaternion's length is not kept by the stages: rotations use its direction, and the step ends with a unit one.
 #include "core/dynamics/integrators/classical_runge_kutta.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 extern const Integrator kRk4;
 const Integrator kRk4 = {
@@ -20,4 +20,4 @@ const Integrator kRk4 = {
     },
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

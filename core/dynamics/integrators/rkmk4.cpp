@@ -3,7 +3,7 @@
 // Every stage is a rotation. Spins about an axis fixed in space are exact. Without torque L is exact, too.
 #include "core/dynamics/integrators/classical_runge_kutta.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 extern const Integrator kRkmk4;
 const Integrator kRkmk4 = {
@@ -20,4 +20,4 @@ const Integrator kRkmk4 = {
     },
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -12,7 +12,7 @@
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/wrench_columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // As a share of the longest moving arm. Each step closes the gaps again, so no error accumulates and this is enough.
@@ -84,4 +84,4 @@ const Integrator kSemiImplicitEuler = {
     .make = make_stepper<SemiImplicitEuler>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

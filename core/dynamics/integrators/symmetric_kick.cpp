@@ -1,6 +1,6 @@
 #include "core/dynamics/integrators/symmetric_kick.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 SymmetricKick::SymmetricKick(const System& system)
     : system_(system),
@@ -61,4 +61,4 @@ bool SymmetricKick::damped_kick(MutableBodyColumns state, double h, double t, do
   return true;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

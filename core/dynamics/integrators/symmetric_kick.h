@@ -10,7 +10,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/dynamics/model/wrench_columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class SymmetricKick {
  public:
@@ -42,4 +42,4 @@ class SymmetricKick {
 
 inline constexpr const char* kNoSymmetricKick = "the equations for the damped velocities were singular";
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

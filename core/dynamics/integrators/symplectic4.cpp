@@ -5,7 +5,7 @@
 
 #include "core/dynamics/integrators/leapfrog_composition.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 namespace {
 
@@ -30,4 +30,4 @@ const Integrator kSymplectic4 = {
     },
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

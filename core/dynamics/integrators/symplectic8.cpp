@@ -4,7 +4,7 @@
 
 #include "core/dynamics/integrators/leapfrog_composition.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 namespace {
 
@@ -33,4 +33,4 @@ const Integrator kSymplectic8 = {
     },
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

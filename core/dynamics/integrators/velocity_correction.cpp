@@ -1,6 +1,6 @@
 #include "core/dynamics/integrators/velocity_correction.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 void kick(const System& system, const Wrenches& wrenches, double dt, MutableBodyColumns state) {
@@ -22,4 +22,4 @@ void resolve_ahead(Contact& contact, const System& system, const Wrenches& wrenc
   kick(system, wrenches, -dt, state);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -6,7 +6,7 @@
 
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class Contact {
  public:
@@ -20,4 +20,4 @@ class Contact {
 void resolve_ahead(Contact& contact, const System& system, const Wrenches& wrenches, double dt,
                    MutableBodyColumns state);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -6,7 +6,7 @@
 #include "core/dynamics/integrators/integrator.h"
 #include "core/dynamics/model/wrench_columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 class VelocityVerlet : public Stepper {
@@ -104,4 +104,4 @@ const Integrator kVelocityVerlet = {
     .make = make_stepper<VelocityVerlet>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Relative to the product of a block's diagonal before elimination. With a smaller determinant the inverse has lost six
@@ -308,4 +308,4 @@ void BallJoints::close(MutableBodyColumns state) const {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

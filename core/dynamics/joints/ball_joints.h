@@ -12,7 +12,7 @@
 #include "core/dynamics/kernels/ball_kernels.h"
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class BallJoints {
  public:
@@ -86,4 +86,4 @@ class BallJoints {
   BodyTable end_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

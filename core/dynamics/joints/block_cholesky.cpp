@@ -6,7 +6,7 @@
 
 #include "core/dynamics/joints/small_blocks.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kInfinite = 1e150;  // its square is a number, too
@@ -159,4 +159,4 @@ void BlockCholesky::solve(std::vector<Vec6>& x, std::size_t first, std::size_t l
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -16,7 +16,7 @@
 #include "core/dynamics/joints/constraint_rows.h"
 #include "core/dynamics/joints/elimination_order.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 using Block6 = Eigen::Matrix<double, 6, 6>;
 using Block = Eigen::Map<Eigen::MatrixXd>;  // without gaps between its columns
@@ -99,4 +99,4 @@ class BlockCholesky {
   std::size_t joint_of_smallest_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct ConstraintRow {
   Vec6 on_a, on_b;  // J_a, J_b: also the wrench (force, torque about the centre of mass) of a unit of the multiplier
@@ -102,4 +102,4 @@ inline Across directions_across(const Vec3& axis) {
   return {first, axis.cross(first)};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -1,7 +1,7 @@
 // A distance joint: two points stay as far apart as they are at t = 0. One row.
 #include "core/dynamics/joints/joint_constraint.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 class Distance : public JointOf<Distance> {
@@ -28,4 +28,4 @@ std::unique_ptr<JointConstraint> make_distance(const DistanceJoint& joint, const
   return std::make_unique<Distance>(joint, ends);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

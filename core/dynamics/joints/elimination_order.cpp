@@ -6,7 +6,7 @@
 #include <set>
 #include <tuple>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 EliminationOrder::EliminationOrder(std::size_t joints, const std::vector<std::pair<int, int>>& coupled)
     : position(joints) {
@@ -97,4 +97,4 @@ EliminationOrder::Place EliminationOrder::place(int first, int second) const {
   return {static_cast<std::int32_t>(found - row_below.begin()), transposed};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct EliminationOrder {
   // The pairs of joints that share a body, in any order, also more than once.
@@ -41,4 +41,4 @@ struct EliminationOrder {
   void list_products();
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 std::vector<int> ImpulseResponses::moved_by(int a, int b) const {
   std::vector<int> bodies;
@@ -37,4 +37,4 @@ Vec6 ImpulseResponses::alone(int body, const Vec6& impulse) const {
   return joined(inertia.inverse_mass * impulse.head<3>(), R * (inertia.inverse_inertia_B * torque_B));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

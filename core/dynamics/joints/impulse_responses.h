@@ -8,7 +8,7 @@
 
 #include "core/dynamics/joints/joints.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ImpulseResponses {
  public:
@@ -36,4 +36,4 @@ class ImpulseResponses {
   std::vector<Vec6> change_;  // by body
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 std::vector<Island> islands_of(const System& system, const std::vector<std::pair<int, int>>& pairs,
                                const Joints* joints) {
@@ -48,4 +48,4 @@ std::vector<Island> islands_of(const System& system, const std::vector<std::pair
   return islands;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 
 #include "core/dynamics/joints/joints.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct Island {
   std::vector<int> bodies;          // that move, in the order in which the points name them
@@ -21,4 +21,4 @@ struct Island {
 std::vector<Island> islands_of(const System& system, const std::vector<std::pair<int, int>>& pairs,
                                const Joints* joints = nullptr);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -1,6 +1,6 @@
 #include "core/dynamics/joints/joint_constraint.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 EndMotion at_start(const Scene& scene, int body) {
@@ -34,4 +34,4 @@ std::unique_ptr<JointConstraint> make_constraint(const Scene& scene, const Joint
   return std::visit(Make{scene, joint, {at_start(scene, joint.a), at_start(scene, joint.b)}}, joint.type);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

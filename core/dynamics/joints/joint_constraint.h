@@ -7,7 +7,7 @@
 #include "core/dynamics/joints/constraint_rows.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class JointConstraint {
  public:
@@ -51,4 +51,4 @@ std::unique_ptr<JointConstraint> make_universal(const UniversalJoint& joint, con
 
 std::unique_ptr<JointConstraint> make_constraint(const Scene& scene, const Joint& joint);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

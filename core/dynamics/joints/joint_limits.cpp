@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 double peak_between(double x, double rate, double end_x, double end_rate, double h) {
   const double coming = -end_rate;
@@ -46,4 +46,4 @@ void JointLimits::note(BodyColumns state, double since) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

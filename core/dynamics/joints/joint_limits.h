@@ -7,7 +7,7 @@
 
 #include "core/dynamics/model/joint_coordinate.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // An upper bound of x within h, if its path between two instants bends in one direction: the intersection of the
 // tangents at both ends. Returns minus infinity unless x first rises and then returns.
@@ -51,4 +51,4 @@ class JointLimits {
   std::vector<Limit> limits_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

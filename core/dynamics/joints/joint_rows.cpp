@@ -6,7 +6,7 @@
 #include "core/dynamics/joints/small_blocks.h"
 #include "core/dynamics/kernels/kernels.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Row k of J at both ends.
@@ -383,4 +383,4 @@ void JointRows::move(const double* wrench, MutableBodyColumns state) const {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -17,7 +17,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/engine/columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // The function of the row of a coordinate x.
 enum class CoordinateRow {
@@ -129,4 +129,4 @@ class JointRows {
 // A body's column of wrench columns.
 Vec6 wrench_at(const double* columns, std::size_t stride, int body);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

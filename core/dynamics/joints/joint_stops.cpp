@@ -8,7 +8,7 @@
 #include "core/dynamics/model/contact_scales.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // In the coordinate's unit and the scene's unit of time (contact_scales.h).
@@ -382,4 +382,4 @@ double JointStops::margin_of_motors() const {
   return least;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -13,9 +13,11 @@
 #include "core/dynamics/model/loads/loads.h"
 #include "core/dynamics/model/wrench_columns.h"
 
-namespace rigor {
-
+namespace rigor::inline engine {
 class StateArchive;
+}
+
+namespace rigor::inline dynamics {
 
 class JointStops {
  public:
@@ -112,4 +114,4 @@ class JointStops {
   double settled_at_ = 0, now_ = 0;  // s: of the states settled and read last
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

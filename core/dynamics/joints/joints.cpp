@@ -11,7 +11,7 @@
 #include "core/engine/state_archive.h"
 #include "core/scene/turn_window.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -350,4 +350,4 @@ void Joints::turn_rotors() {
     if (rows_.joint(k).carries_rotor()) rotor_[k] += rotor_change(k, total_multipliers_);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -16,9 +16,11 @@
 #include "core/dynamics/joints/joint_rows.h"
 #include "core/dynamics/model/constraint_forces.h"
 
-namespace rigor {
-
+namespace rigor::inline engine {
 class StateArchive;
+}
+
+namespace rigor::inline dynamics {
 
 class Joints : public ConstraintForces {
  public:
@@ -144,4 +146,4 @@ class Joints : public ConstraintForces {
   std::string at_start_, warning_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

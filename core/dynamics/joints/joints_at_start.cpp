@@ -6,7 +6,7 @@
 
 #include "core/dynamics/joints/joints.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // The allowed difference between a repeated row's acceleration and the one that follows from the others, relative to
@@ -84,4 +84,4 @@ void Joints::look_for_singularity(BodyColumns start) {
   count_rows(start);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 
 #include "core/dynamics/joints/joint_constraint.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 template <unsigned kShifts, unsigned kTurns>
@@ -84,4 +84,4 @@ std::unique_ptr<JointConstraint> make_masked(unsigned mask, const Vec3* anchor, 
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

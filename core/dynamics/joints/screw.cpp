@@ -6,7 +6,7 @@
 #include "core/dynamics/joints/joint_constraint.h"
 #include "core/dynamics/model/hinge_angle.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 class Screw : public JointConstraint {
@@ -61,4 +61,4 @@ std::unique_ptr<JointConstraint> make_screw(const ScrewJoint& joint, const EndsA
   return std::make_unique<Screw>(joint, ends);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

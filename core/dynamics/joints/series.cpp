@@ -1,9 +1,9 @@
-// A compound joint: the motions that its axes in series lock (core/scene/joints/axis_series.h); and an axis of one, which
-// locks none by itself.
+// A compound joint: the motions that its axes in series lock (core/scene/joints/axis_series.h); and an axis of one,
+// which locks none by itself.
 #include "core/dynamics/joints/joint_constraint.h"
 #include "core/scene/joints/axis_series.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 SeriesEnd end_of(const EndMotion& motion) {
@@ -48,4 +48,4 @@ std::unique_ptr<JointConstraint> make_series(const CompoundJoint& joint, const B
 
 std::unique_ptr<JointConstraint> make_axis_of_series() { return std::make_unique<LocksNothing>(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

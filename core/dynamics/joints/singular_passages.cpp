@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr std::size_t kMostNamed = 5;
@@ -40,4 +40,4 @@ std::string SingularPassages::text() const {
   return fmt::format("at {}{}", fmt::join(named, ", "), others > 0 ? fmt::format(" and {} more", others) : "");
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class SingularPassages {
  public:
@@ -33,4 +33,4 @@ class SingularPassages {
   long count_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

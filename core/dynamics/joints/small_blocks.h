@@ -6,7 +6,7 @@
 
 #include "core/dynamics/joints/constraint_rows.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Calls f with `rows`, 1 to 6, as a type: f(std::integral_constant<int, rows>{}).
 template <typename F>
@@ -108,4 +108,4 @@ void subtract_transposed_product(double* y, const double* a, const double* x, in
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -1,7 +1,7 @@
 // A universal joint: one point is shared, and an axis of a stays at right angles to an axis of b. Four rows.
 #include "core/dynamics/joints/joint_constraint.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 class Universal : public JointOf<Universal> {
@@ -30,4 +30,4 @@ std::unique_ptr<JointConstraint> make_universal(const UniversalJoint& joint, con
   return std::make_unique<Universal>(joint, ends);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

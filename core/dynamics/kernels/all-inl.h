@@ -4,7 +4,7 @@
 #define RIGOR_INLINE __attribute__((always_inline)) inline
 #define RIGOR_LAMBDA __attribute__((always_inline))
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace RIGOR_LANES_OF {
 namespace {
 
@@ -82,4 +82,4 @@ const BallKernels kBallTable = {
 };
 
 }  // namespace RIGOR_LANES_OF
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

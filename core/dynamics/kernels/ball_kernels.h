@@ -5,7 +5,7 @@
 #include "core/dynamics/kernels/ball_rows.h"
 #include "core/dynamics/kernels/kernels.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct BallKernels {
   // Positions and orientations to records.
@@ -23,4 +23,4 @@ struct BallKernels {
 
 const BallKernels& ball_kernels();
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

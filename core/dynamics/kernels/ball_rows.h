@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 enum PoseRecord { kPosePosition = 0, kPoseOrientation = 3 };
 
@@ -50,4 +50,4 @@ struct BallRows {
   const double* inverse_inertias;  // records as SolverBodies has them
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

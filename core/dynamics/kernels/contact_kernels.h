@@ -8,7 +8,7 @@
 #include "core/dynamics/kernels/contact_rows.h"
 #include "core/dynamics/kernels/kernels.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct ContactKernels {
   // near_pairs: writes the numbers of the pairs of places (records: position, reach, velocity, radius) whose reaches
@@ -45,4 +45,4 @@ struct ContactKernels {
 
 const ContactKernels& contact_kernels();
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

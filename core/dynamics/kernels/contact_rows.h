@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 inline constexpr std::size_t kRowsPerBlock = 8;
 
@@ -92,4 +92,4 @@ struct SolverParameters {
   int max_sweeps;                               // so many sweeps
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

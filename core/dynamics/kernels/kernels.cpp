@@ -3,7 +3,7 @@
 #include "core/dynamics/kernels/ball_kernels.h"
 #include "core/dynamics/kernels/contact_kernels.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 namespace plain {
 extern const Kernels kTable;
@@ -67,4 +67,4 @@ std::size_t available_kernels(const Kernels* (&out)[kMostKernelTables]) {
 KernelsInPlace::KernelsInPlace(const Kernels& table) : before_(in_use()) { in_use() = &table; }
 KernelsInPlace::~KernelsInPlace() { in_use() = before_; }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

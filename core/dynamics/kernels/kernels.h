@@ -9,7 +9,7 @@
 
 #include "core/engine/body_column.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Columns of a body's constants; body_constants.h fills them.
 enum ConstantColumn {
@@ -178,4 +178,4 @@ class KernelsInPlace {
   const Kernels* before_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Above this value of Skeel's condition number max_i (|A| |A⁻¹| |r|)_i / |r|_i no digit of a solution is left.
@@ -105,4 +105,4 @@ bool BlockSystem::solve(const Eigen::VectorXd& right_side, Eigen::VectorXd& solu
   return solve_by(dense_, dense_lu_, right_side, solution);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 #include "core/base/factors.h"
 #include "core/dynamics/model/loads/load_jacobian.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class BlockSystem {
  public:
@@ -30,4 +30,4 @@ class BlockSystem {
   std::unique_ptr<Sparse> sparse_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

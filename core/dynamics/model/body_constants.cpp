@@ -2,7 +2,7 @@
 
 #include "core/dynamics/model/free_rotation.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 BodyConstants::BodyConstants(const std::vector<Inertia>& bodies, const Vec3& gravity)
     : columns_(kConstantColumns, bodies.size()), size_(bodies.size()), gravity_(gravity) {
@@ -51,4 +51,4 @@ Bodies BodyConstants::all() const {
           .round = round_};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

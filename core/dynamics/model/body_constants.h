@@ -9,7 +9,7 @@
 #include "core/dynamics/kernels/kernels.h"
 #include "core/engine/columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct Inertia;
 
@@ -63,4 +63,4 @@ class BodyConstants {
   bool has_fixed_ = false, diagonal_ = true, principal_ = true, round_ = true;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ConstraintForces {
  public:
@@ -17,4 +17,4 @@ class ConstraintForces {
   virtual const double* hold(BodyColumns state, const double* wrench, Rows rows) = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // m: the radius of gyration about the axis of the largest moment.
@@ -93,4 +93,4 @@ ContactScales contact_scales(const Scene& scene, double factor) {
   return {length, rate > 0 ? 1 / rate : 1, factor};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct ContactScales {
   double length = 1;  // m
@@ -26,4 +26,4 @@ struct ContactScales {
 
 ContactScales contact_scales(const Scene& scene, double factor = 1);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 CoupledCoordinates::CoupledCoordinates(const Scene& scene, const Coupling& coupling) : offset_(coupling.offset) {
   add(scene, coupling.joint, 1);
@@ -60,4 +60,4 @@ void CoupledCoordinates::count_turns() {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

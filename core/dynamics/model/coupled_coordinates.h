@@ -10,7 +10,7 @@
 
 #include "core/dynamics/model/joint_coordinate.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class CoupledCoordinates {
  public:
@@ -45,4 +45,4 @@ class CoupledCoordinates {
   int count_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

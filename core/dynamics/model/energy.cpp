@@ -2,7 +2,7 @@
 
 #include "core/dynamics/model/joint_coordinate.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 Mat3 inertia_in_world(const Body& body, BodyColumns bodies, std::size_t i) {
@@ -72,4 +72,4 @@ Vec3 angular_momentum(const Scene& scene, BodyColumns bodies, const Vec3& about_
   return sum;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

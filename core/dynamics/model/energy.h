@@ -4,7 +4,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 double kinetic_energy_of(const Scene& scene, BodyColumns bodies, std::size_t i);  // J, of one body; 0 if fixed
 double kinetic_energy(const Scene& scene, BodyColumns bodies);                    // J
@@ -16,4 +16,4 @@ inline double energy(const Scene& scene, BodyColumns bodies) {
 Vec3 linear_momentum(const Scene& scene, BodyColumns bodies);                        // kg m/s, in W
 Vec3 angular_momentum(const Scene& scene, BodyColumns bodies, const Vec3& about_W);  // kg m²/s, in W
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

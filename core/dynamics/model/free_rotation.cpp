@@ -1,6 +1,6 @@
 #include "core/dynamics/model/free_rotation.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 FreeRotation::FreeRotation(const Inertia& body) {
   if (body.fixed) return;
@@ -12,4 +12,4 @@ FreeRotation::FreeRotation(const Inertia& body) {
   excess_high = inverse.z() - inverse.y();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

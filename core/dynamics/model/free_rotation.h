@@ -10,7 +10,7 @@
 
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct FreeRotation {
   explicit FreeRotation(const Inertia& body);
@@ -20,4 +20,4 @@ struct FreeRotation {
   double excess_low = 0, excess_high = 0;  // 1/b - 1/a of the smallest (P's x) and the largest moment (P's z)
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

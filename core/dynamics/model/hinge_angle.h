@@ -6,7 +6,7 @@
 #include "core/base/math.h"
 #include "core/base/portable.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct HingeAngle {
   Vec3 across_a;           // unit, across the axis, in a's frame
@@ -19,4 +19,4 @@ struct HingeAngle {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 
 #include "core/scene/turn_window.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 SeriesEnd end_state(BodyColumns bodies, int body) {
@@ -72,4 +72,4 @@ double JointCoordinate::with_turns(double x, double near) const {
   return x + kTurn * std::round((near - x) / kTurn);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -10,7 +10,7 @@
 #include "core/scene/joints/axis_series.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class JointCoordinate {
  public:
@@ -47,4 +47,4 @@ class JointCoordinate {
   double start_ = 0;                  // m: where b's centre is along the axis at t = 0; of a slider
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 MotionEquations::MotionEquations(const System& system, ConstraintForces* constraints)
     : system_(system),
@@ -50,4 +50,4 @@ double MotionEquations::relative_size(const BodyTable& change, const BodyTable& 
   return kernels().relative_size(system_.constants.all(), change.columns().column(0), y.columns().column(0));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

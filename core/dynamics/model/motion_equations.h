@@ -11,7 +11,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/dynamics/model/wrench_columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class MotionEquations {
  public:
@@ -47,4 +47,4 @@ class MotionEquations {
   std::vector<const double*> first_columns_;  // of rates_
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 
 #include "core/base/eigen_of.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 PrincipalInertia principal_inertia(const Mat3& inertia_B) {
   if (inertia_B.isDiagonal(0)) {
@@ -57,4 +57,4 @@ void set_initial_state(const Scene& scene, MutableBodyColumns state) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -10,7 +10,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // The principal axes P of a body: I_B = R_BP diag(moments) R_BPᵀ.
 struct PrincipalInertia {
@@ -52,4 +52,4 @@ Vec3 angular_velocity_of(const Inertia& body, const Mat3& R, const Vec3& L);
 // The scene's state at t = 0; a fixed body's velocities are zero.
 void set_initial_state(const Scene& scene, MutableBodyColumns state);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 WrenchColumns::WrenchColumns(const System& system)
     : loads_(system.loads),
@@ -117,4 +117,4 @@ void WrenchColumns::add_drives(BodyColumns state, double t, double dt, std::opti
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 #include "core/dynamics/model/system.h"
 #include "core/engine/columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class WrenchColumns {
  public:
@@ -34,4 +34,4 @@ class WrenchColumns {
   std::vector<std::size_t> first_pull_, pulls_on_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

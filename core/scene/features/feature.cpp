@@ -4,7 +4,7 @@
 
 #include <cassert>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 const FeatureWord kPlainWords[] = {
@@ -111,4 +111,4 @@ Features joined(Features a, const Features& b) {
   return a;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -14,7 +14,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 enum class Feature : int {
   armature,        // inertia of a rotor on a joint's axis
@@ -137,4 +137,4 @@ Features joints_of_types() {
 // `a` and `b` together.
 Features joined(Features a, const Features& b);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

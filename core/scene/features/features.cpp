@@ -10,7 +10,7 @@
 
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 class NeedList {
@@ -203,4 +203,4 @@ bool needs(const Scene& scene, Feature feature) {
   return std::any_of(all.begin(), all.end(), [&](const Need& need) { return need.feature == feature; });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -8,7 +8,7 @@
 
 #include "core/scene/features/feature.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct Need {
   Feature feature;
@@ -21,4 +21,4 @@ std::vector<Need> needs_of(const Scene& scene);
 bool needs(const Scene& scene, Feature feature);
 Feature feature_of(const Motor& motor);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // Up to three directions, and the rows of their pseudo-inverse.
 struct SeriesDirections {
@@ -255,4 +255,4 @@ std::string why_no_series(const std::vector<SeriesAxis>& axes) {
   return axes.empty() ? "has no axis; allowed: one to six" : "";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -16,7 +16,7 @@
 #include "core/scene/body_pose.h"
 #include "core/scene/joints/compound_joint.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct SeriesEnd {  // of a or b, in W
   Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
@@ -64,4 +64,4 @@ class AxisSeries {
 // "" if such axes can stand in series, else why they cannot.
 std::string why_no_series(const std::vector<SeriesAxis>& axes);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -2,7 +2,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct BallJoint {
   Vec3 anchor;  // m, in W at t = 0
@@ -13,4 +13,4 @@ struct BallJoint {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -8,7 +8,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // At most three hinges and three sliders: more axes repeat others, or turn about parallel lines.
 inline constexpr std::size_t kMostSeriesAxes = 6;
@@ -63,4 +63,4 @@ struct CompoundAxis {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

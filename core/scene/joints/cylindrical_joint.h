@@ -2,7 +2,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // It has two free coordinates: neither springs and dampers nor limits and motors act on it.
 struct CylindricalJoint {
@@ -18,4 +18,4 @@ struct CylindricalJoint {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

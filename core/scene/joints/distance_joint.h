@@ -2,7 +2,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct DistanceJoint {
   Vec3 point_a, point_b;  // m, in the bodies' frames
@@ -15,4 +15,4 @@ struct DistanceJoint {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -2,7 +2,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct FixedJoint {
   static constexpr JointDescriptor<FixedJoint> descriptor() {
@@ -10,4 +10,4 @@ struct FixedJoint {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

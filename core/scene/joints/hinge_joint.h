@@ -2,7 +2,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct HingeJoint {
   Vec3 anchor;  // m, in W at t = 0
@@ -18,4 +18,4 @@ struct HingeJoint {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

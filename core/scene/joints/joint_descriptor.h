@@ -8,7 +8,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // The motions of b relative to a, as bits of a mask. The z axis of the joint's frame is the joint's axis; its origin is
 // the anchor, or b's centre of mass where there is no anchor.
@@ -57,4 +57,4 @@ struct JointDescriptor {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

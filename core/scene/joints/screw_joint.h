@@ -2,7 +2,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // Neither springs and dampers nor limits and motors act on it.
 struct ScrewJoint {
@@ -21,4 +21,4 @@ struct ScrewJoint {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

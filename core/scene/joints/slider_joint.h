@@ -2,7 +2,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct SliderJoint {
   Vec3 axis;  // unit, in W at t = 0
@@ -16,4 +16,4 @@ struct SliderJoint {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -2,7 +2,7 @@
 
 #include "core/scene/joints/joint_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct UniversalJoint {
   Vec3 anchor;  // m, in W at t = 0
@@ -21,4 +21,4 @@ struct UniversalJoint {
   Vec3 square_axis2() const { return (axis2 - axis2.dot(axis) * axis).normalized(); }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -2,7 +2,7 @@
 
 #include "core/scene/shapes/shape_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct Box {
   Vec3 size;  // m, full edge lengths
@@ -23,4 +23,4 @@ struct Box {
   TriangleMesh drawn() const { return scaled(unit_cube(), size); }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

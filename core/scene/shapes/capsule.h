@@ -2,7 +2,7 @@
 
 #include "core/scene/shapes/shape_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct Capsule {
   double radius;  // m
@@ -40,4 +40,4 @@ struct Capsule {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -5,7 +5,7 @@
 
 #include "core/scene/shape_types.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 double Compound::volume() const {
   double sum = 0;
@@ -70,4 +70,4 @@ TriangleMesh Compound::drawn() const {
   return mesh;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

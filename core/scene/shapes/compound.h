@@ -4,7 +4,7 @@
 
 #include "core/scene/shapes/shape_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct PlacedShape;
 
@@ -25,4 +25,4 @@ struct Compound {
   TriangleMesh drawn() const;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -5,7 +5,7 @@
 #include "core/scene/shapes/hull.h"
 #include "core/scene/shapes/shape_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // The convex hull of points. Copies share it.
 struct Convex {
@@ -23,4 +23,4 @@ struct Convex {
   TriangleMesh drawn() const { return hull->drawn(); }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -5,7 +5,7 @@
 
 #include "core/scene/shapes/shape_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct Cylinder {
   double radius;  // m
@@ -37,4 +37,4 @@ struct Cylinder {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

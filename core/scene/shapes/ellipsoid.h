@@ -2,7 +2,7 @@
 
 #include "core/scene/shapes/shape_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct Ellipsoid {
   Vec3 radii;  // m, the half-axes along x, y and z
@@ -26,4 +26,4 @@ struct Ellipsoid {
   TriangleMesh drawn() const { return scaled(unit_ball(), 2 * radii); }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -5,7 +5,7 @@
 
 #include "core/scene/shapes/mesh.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // Ground of a fixed body, solid down to any depth. Beyond its border there is nothing.
 struct Heightfield : SurfaceShape {
@@ -18,4 +18,4 @@ struct Heightfield : SurfaceShape {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

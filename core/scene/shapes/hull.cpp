@@ -17,7 +17,7 @@ extern "C" {
 #include "core/base/error.h"
 #include "core/scene/shapes/solid_integrals.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 // Of the volume of a ball with the hull's bounding radius. A hull with less is flat, and its faces are noise.
@@ -227,4 +227,4 @@ TriangleMesh Hull::drawn() const {
   return mesh;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

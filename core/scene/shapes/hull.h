@@ -9,7 +9,7 @@
 #include "core/base/math.h"
 #include "core/scene/shapes/triangle_mesh.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct Hull {
   static constexpr std::size_t kMostPoints = 200'000;  // given
@@ -49,4 +49,4 @@ std::shared_ptr<const Hull> scaled_hull(const Hull& hull, double factor);
 // The mirror image at the plane x = 0.
 std::shared_ptr<const Hull> mirrored_hull(const Hull& hull);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -5,7 +5,7 @@
 #include "core/scene/shapes/shape_descriptor.h"
 #include "core/scene/shapes/surface.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // What a mesh and a height field have in common. Copies share the surface. Its body is fixed, and stands alone.
 struct SurfaceShape {
@@ -27,4 +27,4 @@ struct Mesh : SurfaceShape {
   }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

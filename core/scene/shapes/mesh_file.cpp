@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary STL files are little-endian");
@@ -179,4 +179,4 @@ std::string path_beside(const std::string& case_file, const std::string& name) {
   return path.string();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -7,7 +7,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct MeshFile {
   static constexpr std::size_t kMostTriangles = 1'000'000;
@@ -23,4 +23,4 @@ MeshFile parse_mesh(const std::string& text, const std::string& name);
 // The path of a file that a case file names beside itself. Throws InputError for one that leads out of that folder.
 std::string path_beside(const std::string& case_file, const std::string& name);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -2,7 +2,7 @@
 
 #include "core/scene/shapes/shape_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // Given in W, wherever its body is.
 struct Plane {
@@ -25,4 +25,4 @@ struct Plane {
   TriangleMesh drawn() const { return {}; }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

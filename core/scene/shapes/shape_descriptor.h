@@ -18,7 +18,7 @@
 #include "core/base/math.h"
 #include "core/scene/shapes/triangle_mesh.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 inline constexpr double kPi = 3.14159265358979323846;  // std::numbers is C++20, and one engine's process is C++17
 
@@ -51,4 +51,4 @@ inline constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 inline Mat3 diagonal_inertia(double xx, double yy, double zz) { return Vec3(xx, yy, zz).asDiagonal(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

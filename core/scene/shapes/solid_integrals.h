@@ -5,7 +5,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 class SolidIntegrals {
  public:
@@ -34,4 +34,4 @@ class SolidIntegrals {
   double volume_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

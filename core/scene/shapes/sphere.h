@@ -2,7 +2,7 @@
 
 #include "core/scene/shapes/shape_descriptor.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct Sphere {
   double radius;  // m
@@ -23,4 +23,4 @@ struct Sphere {
   TriangleMesh drawn() const { return scaled(unit_ball(), Vec3::Constant(2 * radius)); }
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

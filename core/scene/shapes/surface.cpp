@@ -12,7 +12,7 @@
 #include "core/scene/shapes/mesh.h"
 #include "core/scene/shapes/solid_integrals.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 constexpr double kFlatEdge = 1e-6;    // the sine between triangles that count as one plane: single precision in files
@@ -347,4 +347,4 @@ std::shared_ptr<const TriangleSurface> scaled_surface(const TriangleSurface& sur
   return scaled;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -9,7 +9,7 @@
 #include "core/base/math.h"
 #include "core/scene/shapes/triangle_mesh.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct TriangleSurface {
   static constexpr std::size_t kMostTriangles = 200'000;
@@ -89,4 +89,4 @@ std::shared_ptr<const TriangleSurface> height_surface(const std::array<double, 2
 
 std::shared_ptr<const TriangleSurface> scaled_surface(const TriangleSurface& surface, double factor);  // factor > 0
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -4,7 +4,7 @@
 
 #include "core/scene/shapes/surface.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 std::size_t place_of(int i) { return static_cast<std::size_t>(i); }
@@ -70,4 +70,4 @@ Vec3 TriangleSurface::nearest(const Vec3& p, double most) const {
   return best;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 constexpr int kRound = 24;  // points of a ring
@@ -70,4 +70,4 @@ void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& at) {
   for (const int corner : other.corners) mesh.corners.push_back(first + corner);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

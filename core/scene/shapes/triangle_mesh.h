@@ -6,7 +6,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct TriangleMesh {
   std::vector<Vec3> points, normals;  // m; unit, outwards
@@ -25,4 +25,4 @@ TriangleMesh unit_ball();  // diameter 1
 TriangleMesh scaled(TriangleMesh mesh, const Vec3& scale);
 void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& at);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

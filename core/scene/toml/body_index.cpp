@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/near_match.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 int read_count(double number, const TomlValue& value) {
@@ -197,4 +197,4 @@ std::vector<std::string> BodyIndex::known(bool world_allowed) const {
   return names;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

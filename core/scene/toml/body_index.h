@@ -11,7 +11,7 @@
 #include "core/scene/scene.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // A body and its copies on a grid. The copy at (i, j, k), counted from 0, is body first + i + nx (j + ny k).
 struct BodyArray {
@@ -70,4 +70,4 @@ class BodyIndex {
   std::unordered_map<std::string, BodyArray> arrays_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

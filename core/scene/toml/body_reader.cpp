@@ -5,7 +5,7 @@
 #include "core/scene/toml/row_fault.h"
 #include "core/scene/toml/shape_reader.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 // Rows and columns xx, yy, zz, xy, xz, yz of the matrix itself, so that xy is minus the product of inertia.
@@ -94,4 +94,4 @@ Body read_body(const TableReader& row) {
   return body;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -3,7 +3,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 class TableReader;
 
@@ -13,4 +13,4 @@ const std::vector<std::string>& body_keys();
 // Throws InputError for a value that no body can have. The scene checks that its name is unique.
 Body read_body(const TableReader& row);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

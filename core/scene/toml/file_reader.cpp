@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,4 +46,4 @@ std::string read_text_file(const std::string& path) {
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -3,11 +3,11 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline scene {
 
 inline constexpr std::size_t kLargestFile = std::size_t{64} << 20;  // bytes; beyond it no case file was meant
 
 // Throws InputError, beginning with the path, unless it is a readable regular file of at most kLargestFile bytes.
 std::string read_text_file(const std::string& path);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

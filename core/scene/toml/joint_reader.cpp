@@ -11,7 +11,7 @@
 #include "core/scene/joints/axis_series.h"
 #include "core/scene/toml/time_table_reader.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 const Keys kOfEvery = {"type", "name", "a", "b"};
@@ -262,4 +262,4 @@ std::optional<Motor> read_friction(const TableReader& row, const Scene& scene) {
   return motor;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

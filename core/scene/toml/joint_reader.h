@@ -7,7 +7,7 @@
 #include "core/scene/toml/body_index.h"
 #include "core/scene/toml/row_fault.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 const Keys& joint_keys();
 const Keys& motor_keys();
@@ -34,4 +34,4 @@ std::optional<Motor> read_friction(const TableReader& row, const Scene& scene);
 // [from, until) of a force or motor [s].
 void read_times(const TableReader& row, double& from, double& until);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 // A character of two bytes or three: those of four have no place in the library's tables. What is not UTF-8 the library
@@ -139,4 +139,4 @@ class Scan {
 
 std::optional<TextFault> beyond_library(std::string_view text) { return Scan(text).first_fault(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

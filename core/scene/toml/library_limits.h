@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace rigor {
+namespace rigor::inline scene {
 
 inline constexpr int kDeepestKey = 32;  // parts; a case file needs three
 
@@ -23,4 +23,4 @@ struct TextFault {
 // The first such place; none if the text may be given to the library, which still has to say whether it is TOML.
 std::optional<TextFault> beyond_library(std::string_view text);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

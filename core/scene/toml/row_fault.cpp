@@ -1,6 +1,6 @@
 #include "core/scene/toml/row_fault.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 void refuse_if(const std::optional<SceneFault>& fault, const TableReader& row) {
   if (!fault) return;
@@ -10,4 +10,4 @@ void refuse_if(const std::optional<SceneFault>& fault, const TableReader& row) {
   row.at(fault->key).refuse(what);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -6,9 +6,9 @@
 #include "core/scene/toml/table_reader.h"
 #include "core/scene/validate.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // Throws InputError at the key that is at fault, or else at the row as a whole.
 void refuse_if(const std::optional<SceneFault>& fault, const TableReader& row);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -13,7 +13,7 @@
 #include "core/scene/toml/joint_reader.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 class SceneReader {
@@ -204,4 +204,4 @@ const std::vector<std::string>& scene_keys() {
 
 Scene read_scene(const TomlValue& value, InitialVelocities velocities) { return SceneReader(velocities).read(value); }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

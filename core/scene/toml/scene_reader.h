@@ -3,7 +3,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 class TomlValue;
 
@@ -18,4 +18,4 @@ const std::vector<std::string>& scene_keys();
 enum class InitialVelocities { checked, as_given };
 Scene read_scene(const TomlValue& value, InitialVelocities velocities = InitialVelocities::checked);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -12,7 +12,7 @@
 #include "core/scene/toml/file_reader.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 bool is_written(const ShapeInfo& info) { return !std::holds_alternative<Compound>(info.prototype); }
@@ -165,4 +165,4 @@ std::optional<Shape> read_shapes(const TableReader& row) {
   return compound;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 class TableReader;
 class TomlValue;
@@ -17,4 +17,4 @@ std::optional<Shape> read_shapes(const TableReader& row);
 // A quaternion [w, x, y, z] of any length but 0, made a unit one.
 Quat read_orientation(const TomlValue& value);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

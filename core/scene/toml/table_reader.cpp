@@ -14,7 +14,7 @@
 #include "core/scene/toml/library_limits.h"
 #include "core/scene/toml/text_offset.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 struct TomlDocument {
   std::string path;
@@ -278,4 +278,4 @@ TableReader TomlFile::root(const Keys& allowed) const {
   return TomlValue(*document_, document_->root, "").table(allowed);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -18,7 +18,7 @@ class table;
 }  // namespace v3
 }  // namespace toml
 
-namespace rigor {
+namespace rigor::inline scene {
 
 class TableReader;
 struct TomlDocument;
@@ -108,4 +108,4 @@ class TomlFile {
 // A text from a file as a message shows it: control characters written out, cut where it is long.
 std::string shown(std::string_view text, std::size_t longest = 80);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

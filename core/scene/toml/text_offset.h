@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // The library counts lines and columns from 1, and columns in characters of UTF-8.
 inline std::size_t offset_of(const std::string& text, std::size_t line, std::size_t column) {
@@ -17,4 +17,4 @@ inline std::size_t offset_of(const std::string& text, std::size_t line, std::siz
   return at;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

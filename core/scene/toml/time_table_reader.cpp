@@ -11,7 +11,7 @@
 #include "core/scene/shapes/mesh_file.h"
 #include "core/scene/toml/file_reader.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 TimeTable table_of_rows(const TomlValue& value) {
@@ -135,4 +135,4 @@ void refuse_table_keys(const TableReader& row, const std::string& why) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -7,7 +7,7 @@
 
 #include "core/base/eigen_of.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // A singular value below the first, of the largest, is zero: an error of the geometry would grow by its inverse. A
@@ -250,4 +250,4 @@ Equilibrium equilibrium_of(const std::vector<MeetingPoint>& points, std::vector<
   return out;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

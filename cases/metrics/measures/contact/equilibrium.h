@@ -10,7 +10,7 @@
 #include "cases/metrics/measures/contact/meeting_points.h"
 #include "cases/metrics/measures/contact/pair_wrenches.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // What a body's motion asks of its contacts, in W. A fixed body asks for nothing.
 struct ContactLoad {
@@ -41,4 +41,4 @@ bool counts_fully(const Mat3& counts);
 // `loads`: one for each body.
 Equilibrium equilibrium_of(const std::vector<MeetingPoint>& points, std::vector<ContactLoad> loads);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

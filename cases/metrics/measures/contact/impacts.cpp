@@ -9,7 +9,7 @@
 #include "cases/metrics/measures/synchronised.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 using Pair = std::pair<int, int>;
@@ -252,4 +252,4 @@ std::map<Pair, std::vector<ImpactSpeeds>> impacts_of(const Scene& scene, const T
   return Watcher(scene, trajectory, leapfrog_stagger).impacts();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

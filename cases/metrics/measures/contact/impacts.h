@@ -9,7 +9,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct ImpactSpeeds {
   double time = 0;    // s, at the touch
@@ -31,4 +31,4 @@ std::map<std::pair<int, int>, std::vector<ImpactSpeeds>> impacts_of(const Scene&
 
 inline constexpr const char* kNoImpact = "no two bodies run into each other";
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

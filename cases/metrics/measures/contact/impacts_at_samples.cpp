@@ -8,7 +8,7 @@
 #include "cases/metrics/measures/shape_gap.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // m/s: no point of the body is faster.
@@ -75,4 +75,4 @@ std::set<BodyPair> pairs_with_impact_at(const Scene& scene, BodyColumns bodies, 
   return ImpactsAtSample(scene, bodies, dt).reached();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -7,10 +7,10 @@
 
 #include "cases/metrics/measures/contact/pair_forces.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // Bodies that touch and at the same time approach or part, faster than bodies at rest do in a step of dt, and all that
 // touch these, one after another: an impulse may pass through them.
 std::set<BodyPair> pairs_with_impact_at(const Scene& scene, BodyColumns bodies, double dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -11,7 +11,7 @@
 #include "core/base/eigen_of.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // A point may carry that is farther than the pair's nearest by at most this share of the smallest body's half width.
@@ -169,4 +169,4 @@ std::vector<MeetingPoint> meeting_points(const Scene& scene, const ContactLaws& 
   return found;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

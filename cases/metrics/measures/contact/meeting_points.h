@@ -6,7 +6,7 @@
 #include "cases/metrics/measures/contact/pair_forces.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct MeetingPoint {
   BodyPair pair;
@@ -25,4 +25,4 @@ struct MeetingPoint {
 std::vector<MeetingPoint> meeting_points(const Scene& scene, const ContactLaws& laws, BodyColumns before,
                                          BodyColumns after, double dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 #include "cases/metrics/measures/shape_gap.h"
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 Overlaps::Overlaps(const Scene& scene) : scene_(scene) {
   BodyTable start(scene.bodies.size());
@@ -18,4 +18,4 @@ void Overlaps::visit(BodyColumns bodies, const std::function<void(const Overlap&
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

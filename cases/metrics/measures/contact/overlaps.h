@@ -8,7 +8,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct Overlap {
   int a, b;      // the bodies
@@ -28,4 +28,4 @@ class Overlaps {
   std::map<std::pair<int, int>, double> at_start_;  // m
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -9,7 +9,7 @@
 #include "cases/metrics/measures/contact/true_wrenches.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // "moment of a on b" for "moment"
@@ -145,4 +145,4 @@ std::string why_no_pairs(const JudgedRun& run) {
   return samples_within(run, kTruthNeededPosition) < 2 ? kNoSamples : "";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -6,7 +6,7 @@
 
 #include "cases/metrics/measures/contact/equilibrium.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // One pair, in the step that ends with sample `n`.
 struct PairAtStep {
@@ -31,4 +31,4 @@ MetricResult largest_pair_difference(const JudgedRun& run, const std::string& wh
 // Why there is nothing to compare; empty if there is.
 std::string why_no_pairs(const JudgedRun& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -6,7 +6,7 @@
 #include "core/dynamics/model/loads/loads.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 BodyPair pair_of(const Scene& scene, int a, int b) {
   const auto is_fixed = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].fixed; };
@@ -56,4 +56,4 @@ std::string name_of(const Scene& scene, const BodyPair& pair) {
   return fmt::format("force of {} on {}", scene.body_name(pair.first), scene.body_name(pair.second));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

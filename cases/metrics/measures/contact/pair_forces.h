@@ -8,7 +8,7 @@
 
 #include "cases/metrics/metric.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // A fixed body comes first, else the lower index. The second body moves.
 using BodyPair = std::pair<int, int>;
@@ -31,4 +31,4 @@ std::string why_no_contacts(const JudgedRun& run);
 // "force of 'a' on 'b'"
 std::string name_of(const Scene& scene, const BodyPair& pair);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

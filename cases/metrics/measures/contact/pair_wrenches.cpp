@@ -2,7 +2,7 @@
 
 #include "core/dynamics/model/loads/loads.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 Vec3 angular_momentum_about_origin(const Body& body, BodyColumns bodies, std::size_t i) {
@@ -48,4 +48,4 @@ PairWrenches reported_pair_wrenches(const JudgedRun& run, std::size_t n) {
   return wrenches;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

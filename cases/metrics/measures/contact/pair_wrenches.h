@@ -6,7 +6,7 @@
 
 #include "cases/metrics/measures/contact/pair_forces.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // On the pair's second body, in W, as a mean over the step; the moment is about that body's centre of mass.
 struct PairWrench {
@@ -25,4 +25,4 @@ std::vector<Vec3> moments_on_bodies(const Scene& scene, BodyColumns before, Body
 // Of the step that ends with sample n. The arms are those at its start.
 PairWrenches reported_pair_wrenches(const JudgedRun& run, std::size_t n);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline metric {
 
 double smallest_half_width(const Scene& scene) {
   double least = std::numeric_limits<double>::infinity();
@@ -22,4 +22,4 @@ Vec3 velocity_at(BodyColumns bodies, int body, const Vec3& place) {
   return bodies.velocity(i) + bodies.angular_velocity(i).cross(place - bodies.position(i));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

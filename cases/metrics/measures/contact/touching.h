@@ -4,7 +4,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // m: half the least width of the smallest moving body; infinite without one.
 double smallest_half_width(const Scene& scene);
@@ -15,4 +15,4 @@ double touching_gap(const Scene& scene);
 // m/s, of the body's point at `place`; both in W.
 Vec3 velocity_at(BodyColumns bodies, int body, const Vec3& place);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

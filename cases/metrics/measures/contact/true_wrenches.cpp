@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 Equilibrium over_step(const Scene& scene, const ContactLaws& laws, BodyColumns before, BodyColumns after, double t,
@@ -53,4 +53,4 @@ Equilibrium wrenches_at_rest(const Scene& scene, BodyColumns bodies) {
   return over_step(scene, ContactLaws(scene), bodies, bodies, 0, 1);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

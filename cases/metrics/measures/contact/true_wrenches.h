@@ -3,7 +3,7 @@
 
 #include "cases/metrics/measures/contact/equilibrium.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 class TrueWrenches {
  public:
@@ -24,4 +24,4 @@ class TrueWrenches {
 // Of a scene that stands as it starts.
 Equilibrium wrenches_at_rest(const Scene& scene, BodyColumns bodies);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

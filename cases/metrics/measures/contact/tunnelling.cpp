@@ -5,7 +5,7 @@
 
 #include "cases/metrics/measures/shape_gap.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 constexpr double kMostTurned = 2;  // rad between two instants, from which on orientations do not tell the turn
@@ -167,4 +167,4 @@ bool Tunnelling::is_beyond(const Pair& pair, const Path& a, const Path& b) const
   return first_within(pair, a, b, -deep(pair)).has_value();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

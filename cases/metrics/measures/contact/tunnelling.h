@@ -16,7 +16,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 struct Passage {
   int a = 0, b = 0;  // the bodies
@@ -65,4 +65,4 @@ class Tunnelling {
   std::map<Pair, Overlapping> overlapping_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 double angle_of(const Vec3& u, const Vec3& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); }
@@ -139,4 +139,4 @@ bool any_holds_angle(const Scene& scene) {
                      [&](const Joint& joint) { return JointGeometry(scene, joint).holds_angle(); });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -8,7 +8,7 @@
 #include "core/scene/joints/axis_series.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // What a joint holds, as one of its bodies carries it.
 struct JointEnd {
@@ -79,4 +79,4 @@ class JointGeometry {
 // Whether any joint of the scene holds more than places.
 bool any_holds_angle(const Scene& scene);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

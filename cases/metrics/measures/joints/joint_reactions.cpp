@@ -7,7 +7,7 @@
 #include "core/base/eigen_of.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 Vec3 centripetal(const MovingEnd& body, const Vec3& arm) { return body.w.cross(body.w.cross(arm)); }
@@ -206,4 +206,4 @@ std::optional<std::vector<UniqueReaction>> JointReactions::unique() {
   return unique;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -15,7 +15,7 @@
 #include "cases/truth/solved/constraint_rows.h"
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // On b, at the joint's point (joint_geometry.h), and about it; the opposite on a. In W.
 struct JointReaction {
@@ -71,4 +71,4 @@ class JointReactions {
   bool is_regular_ = true;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -7,7 +7,7 @@
 #include "cases/metrics/measures/joints/joint_geometry.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 inline constexpr const char* kNoJoints = "the scene has no joints";
 inline constexpr const char* kNoAngle = "no joint of the scene holds an angle";
@@ -37,4 +37,4 @@ inline MetricResult worst_joint(const JudgedRun& run, const std::string& what, O
   return {std::move(series).finish(), ""};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

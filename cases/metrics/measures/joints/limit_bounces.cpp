@@ -5,7 +5,7 @@
 
 #include "core/dynamics/model/joint_coordinate.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // The first sample after each bounce of this joint among the first samples. `bodies` gives a sample's bodies.
@@ -46,4 +46,4 @@ std::vector<double> with_bounces_in_step(const JudgedRun& run, std::vector<doubl
   return energies;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline metric {
 namespace {
 
 // Of one sample. Whether any joint's part is unique there.
@@ -50,4 +50,4 @@ MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPar
   return {std::move(measurement), ""};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -11,7 +11,7 @@
 #include "cases/metrics/measures/joints/joint_reactions.h"
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // The force or the couple, and its name: "reported force".
 struct ReactionPart {
@@ -36,4 +36,4 @@ MetricResult largest_reaction_difference(const JudgedRun& run, const ReactionPar
                                          const std::vector<std::size_t>& samples, ReactionsBySample& known,
                                          const CompareReactions& compare);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -1,6 +1,6 @@
 #include "cases/metrics/measures/joints/reported_at_joint.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 JointReaction reported_at_joint(const Joint& joint, const JointGeometry& geometry, const ReportedReaction& reported,
                                 BodyColumns bodies) {
@@ -11,4 +11,4 @@ JointReaction reported_at_joint(const Joint& joint, const JointGeometry& geometr
   return {sign * reported.force, sign * (reported.torque - arm.cross(reported.force))};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

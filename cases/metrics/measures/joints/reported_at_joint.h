@@ -5,10 +5,10 @@
 #include "cases/metrics/measures/joints/joint_reactions.h"
 #include "core/engine/capabilities.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 // `bodies`: at the start of the step that the report is about.
 JointReaction reported_at_joint(const Joint& joint, const JointGeometry& geometry, const ReportedReaction& reported,
                                 BodyColumns bodies);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -6,7 +6,7 @@
 
 #include "cases/metrics/measures/measuring.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 std::vector<RecordedGap> recorded_gaps(const Trajectory& trajectory, const RecordedMotion& truth, RecordedPart part) {
   std::vector<RecordedGap> gaps;
@@ -70,4 +70,4 @@ MetricResult mean_gap(const JudgedRun& run, RecordedPart part, double scale) {
   return {std::move(measured), ""};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

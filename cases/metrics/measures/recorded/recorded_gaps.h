@@ -7,7 +7,7 @@
 #include "cases/metrics/metric.h"
 #include "cases/truth/recorded/recorded_motion.h"
 
-namespace rigor {
+namespace rigor::inline metric {
 
 enum class RecordedPart { position, orientation };
 
@@ -30,4 +30,4 @@ MetricResult mean_gap(const JudgedRun& run, RecordedPart part, double scale);
 // "the truth is no recording"; empty if it is one.
 std::string why_no_recording(const JudgedRun& run);
 
-}  // namespace rigor
+}  // namespace rigor::inline metric

@@ -59,12 +59,12 @@ writeFileSync(
   `// Made by page/build.mjs; do not edit.
 #include <string_view>
 
-namespace rigor {
+namespace rigor::inline report {
 ${literal("kPageScript", text)}
 ${literal("kPageScriptHash", `sha256-${createHash("sha256").update(text).digest("base64")}`)}
 ${literal("kPageStyle", style.outputFiles[0].text)}
 ${literal("kSiteStyle", siteStyle.outputFiles[0].text)}
 ${literal("kPageLicences", licences.replaceAll("--", "- -"))}
-}  // namespace rigor
+}  // namespace rigor::inline report
 `,
 );

@@ -4,7 +4,7 @@
 
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 Json json_of_bound(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
@@ -120,4 +120,4 @@ Json divergence_json(const Divergence& found, const std::string& command, const 
   return json;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

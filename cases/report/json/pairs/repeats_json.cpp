@@ -4,7 +4,7 @@
 
 #include "core/base/json.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // JSON has no infinity.
@@ -38,4 +38,4 @@ Json repeats_json(const RepeatReport& report) {
           {"steps", report.steps},  {"repeats", report.repeats()}, {"changes", outcomes}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

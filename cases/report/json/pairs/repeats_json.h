@@ -4,8 +4,8 @@
 #include "cases/analysis/repeats/repeats.h"
 #include "core/base/json_fwd.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 Json repeats_json(const RepeatReport& report);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

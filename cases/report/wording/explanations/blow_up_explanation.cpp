@@ -14,7 +14,7 @@
 #include "cases/report/wording/cell_claim.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr const char* kMode = "mode";  // Claim::part of the stiffest mode
@@ -335,4 +335,4 @@ std::vector<Message> blow_up_explanations(const Results& results, const CaseResu
   return BlowUps(results, result).messages();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The quantities that these messages state beside metrics:
 //   spring frequency            rad/s, of the stiffest mode of the scene's springs and joint springs, joints held
@@ -22,4 +22,4 @@ namespace rigor {
 //   largest stable dt           s, as the search found it
 std::vector<Message> blow_up_explanations(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

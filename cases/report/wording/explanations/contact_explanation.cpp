@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // The step at which a diagnosis has its value.
@@ -131,4 +131,4 @@ std::vector<Message> contact_explanations(const Results& results, const CaseResu
   return messages;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

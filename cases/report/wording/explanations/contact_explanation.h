@@ -6,7 +6,7 @@
 #include "cases/analysis/contact_diagnosis.h"
 #include "cases/report/wording/message.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::vector<Message> contact_explanations(const Results& results, const CaseResult& result);
 
@@ -18,4 +18,4 @@ std::string text_over_steps(const Results& results, const Diagnosis& found, cons
 Claim claim_of(const Results& results, const Diagnosis& found, const StepSize& dt, const std::string& quantity,
                double value);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

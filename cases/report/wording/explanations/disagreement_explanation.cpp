@@ -9,7 +9,7 @@
 #include "adapters/engines.h"
 #include "cases/report/wording/cell_claim.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr double kFarther = 10;      // than the median of the nearest distances
@@ -218,4 +218,4 @@ std::vector<Message> disagreement_explanations(const Results& results, const Cas
   return Disagreement(results, result).messages();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // At the smallest step that at least two engines ran, with the first run of each. An engine stands apart if even the
 // nearest other is farther away than ten times the median of all such distances, and three times as far as the others
@@ -16,4 +16,4 @@ namespace rigor {
 //   engines compared            how many there are
 std::vector<Message> disagreement_explanations(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -11,7 +11,7 @@
 #include "cases/report/wording/wording.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 class EnergyReasons {
@@ -149,4 +149,4 @@ std::vector<Message> energy_explanations(const Results& results, const CaseResul
   return EnergyReasons(results, result).messages();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

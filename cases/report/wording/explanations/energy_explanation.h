@@ -6,10 +6,10 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The quantities that these messages state beside metrics:
 //   missed fall   m, g/2 dt t after 1 s
 std::vector<Message> energy_explanations(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -7,7 +7,7 @@
 
 #include "cases/report/wording/cell_claim.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 constexpr double kDiffers = 0.01;  // a p-value below: of equal distributions one in a hundred would be called different
@@ -65,4 +65,4 @@ std::vector<Message> ensemble_explanations(const Results& results, const CaseRes
   return messages;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,9 +6,9 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The quantities that these messages state beside metrics: `ensemble starts`, a count.
 std::vector<Message> ensemble_explanations(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

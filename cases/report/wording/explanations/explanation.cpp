@@ -14,7 +14,7 @@
 #include "cases/report/wording/explanations/ensemble_explanation.h"
 #include "cases/report/wording/explanations/joint_explanation.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // The searches for the largest stable step that left something out; each reason stands with the step in results.json.
@@ -65,4 +65,4 @@ std::vector<Message> explanations(const Results& results, const CaseResult& resu
   return all;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

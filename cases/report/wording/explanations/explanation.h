@@ -7,8 +7,8 @@
 #include "cases/report/wording/message.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 std::vector<Message> explanations(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

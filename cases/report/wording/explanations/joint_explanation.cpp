@@ -12,7 +12,7 @@
 #include "cases/report/wording/explanations/contact_explanation.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // The number at the beginning of a text; not a number if there is none.
@@ -173,4 +173,4 @@ std::vector<Message> joint_explanations(const Results& results, const CaseResult
   return JointReasons(results, result).messages();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

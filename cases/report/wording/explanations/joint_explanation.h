@@ -7,7 +7,7 @@
 #include "cases/analysis/joint_diagnosis.h"
 #include "cases/report/wording/message.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The quantities that these messages state beside metrics:
 //   joints in a row, mass ratio   of the scene, see joint_diagnosis.h
@@ -17,4 +17,4 @@ namespace rigor {
 //   order of M                    of a metric between its two finest steps
 std::vector<Message> joint_explanations(const Results& results, const CaseResult& result);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

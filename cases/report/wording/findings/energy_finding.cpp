@@ -10,7 +10,7 @@
 #include "cases/analysis/energy_diagnosis.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 std::vector<Diagnosis> diagnoses(const Results& results, const StepSize& dt) {
@@ -133,4 +133,4 @@ std::optional<Finding> sampling_finding(const Results& results, const RunNames& 
       claims.take()};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

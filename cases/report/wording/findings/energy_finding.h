@@ -6,7 +6,7 @@
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/run_names.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The quantities that these findings state, of the case in which a run's value is the largest:
 //   worst energy loss, worst energy gain   a share, signed
@@ -17,4 +17,4 @@ namespace rigor {
 std::optional<Finding> energy_finding(const Results& results, const RunNames& names, const StepSize& dt);
 std::optional<Finding> sampling_finding(const Results& results, const RunNames& names, const StepSize& dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

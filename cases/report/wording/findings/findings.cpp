@@ -18,7 +18,7 @@
 #include "cases/report/wording/findings/step_finding.h"
 #include "cases/report/wording/run_names.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // The largest error that an engine has beside its own scheme, as the core repeats it. States the number of such cells
@@ -83,4 +83,4 @@ StepSize headline_dt(const Results& results) {
   return coarsest;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

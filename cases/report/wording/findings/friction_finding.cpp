@@ -10,7 +10,7 @@
 #include "cases/report/wording/findings/headline_cells.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // Two friction forces along fixed axes, each limited by itself, brake along the diagonal with sqrt(2) of the force.
 // Stopping distances then spread by 1 - 1/sqrt(2) = 0.29 over the directions. A cone has no spread.
@@ -63,4 +63,4 @@ std::optional<Finding> friction_finding(const Results& results, const RunNames& 
       claims.take()};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

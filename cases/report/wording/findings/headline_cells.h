@@ -4,7 +4,7 @@
 #include "cases/report/wording/cell_claim.h"
 #include "cases/results/results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 template <typename F>
 void for_headline_cells(const Results& results, std::size_t run, const StepSize& dt, const F& f) {
@@ -15,4 +15,4 @@ void for_headline_cells(const Results& results, std::size_t run, const StepSize&
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -7,7 +7,7 @@
 
 #include "cases/report/wording/explanations/contact_explanation.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // Runs with the same cause, and the worst of their diagnoses.
@@ -110,4 +110,4 @@ std::optional<Finding> contact_forces_finding(const Results& results, const std:
   return finding;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

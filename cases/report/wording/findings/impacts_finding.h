@@ -7,7 +7,7 @@
 
 #include "cases/report/wording/findings/findings.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // `runs`: the runs to report, in this order.
 std::optional<Finding> impacts_finding(const Results& results, const std::vector<std::size_t>& runs);
@@ -16,4 +16,4 @@ std::optional<Finding> impacts_finding(const Results& results, const std::vector
 // runs, the worst case of each.
 std::optional<Finding> contact_forces_finding(const Results& results, const std::vector<std::size_t>& runs);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

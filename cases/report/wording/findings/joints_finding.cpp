@@ -9,7 +9,7 @@
 #include "cases/analysis/joint_diagnosis.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // The worst gap of a run over the cases that it ran and did not blow up in.
@@ -80,4 +80,4 @@ std::optional<Finding> joints_finding(const Results& results, const std::vector<
                  fmt::format("Hold: {}. Come apart: {}.", listed(all, ", "), listed(stretch, "; ")), claims.take()};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 
 #include "cases/report/wording/findings/findings.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The quantities that this finding states:
 //   worst joint gap over size   of a run, over all cases it did not blow up in
@@ -15,4 +15,4 @@ namespace rigor {
 // `runs`: the runs to report, in this order. Empty where no case has joints.
 std::optional<Finding> joints_finding(const Results& results, const std::vector<std::size_t>& runs, const StepSize& dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -14,7 +14,7 @@
 #include "cases/results/main_error.h"
 #include "cases/results/trial_results.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // None where the recording is no witness of the cell.
@@ -162,4 +162,4 @@ std::optional<Message> recorded_finding(const Results& results) {
   return finding;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

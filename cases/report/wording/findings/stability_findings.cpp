@@ -9,7 +9,7 @@
 #include "cases/report/wording/findings/headline_cells.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // How the cells of one run ended.
@@ -126,4 +126,4 @@ std::optional<Finding> stiff_springs_finding(const Results& results, const RunNa
   return Finding{"stiff springs", text, more + fmt::format(" The cases: {}.", fmt::join(ids, ", ")), claims.take()};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -6,7 +6,7 @@
 #include "cases/report/wording/findings/findings.h"
 #include "cases/report/wording/run_names.h"
 
-namespace rigor {
+namespace rigor::inline report {
 
 // The quantities that these findings state, of a run at the step over all cases:
 //   cells that blew up, cells that ran           counts
@@ -16,4 +16,4 @@ namespace rigor {
 std::optional<Finding> blow_up_finding(const Results& results, const RunNames& names, const StepSize& dt);
 std::optional<Finding> stiff_springs_finding(const Results& results, const RunNames& names, const StepSize& dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline report

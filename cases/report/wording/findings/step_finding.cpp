@@ -9,7 +9,7 @@
 #include "cases/analysis/frontier.h"
 #include "cases/report/wording/wording.h"
 
-namespace rigor {
+namespace rigor::inline report {
 namespace {
 
 // The largest step that a run may take, by the rule of the recommendation.
@@ -104,4 +104,4 @@ std::optional<Finding> step_finding(const Results& results, const RunNames& name
   return StepFinding(results, names).finding();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline report

@@ -16,7 +16,7 @@
 #include "cases/truth/closed_form/phased_motion.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -291,4 +291,4 @@ TruthRow bounce_truth() {
           [](const Scene& scene, double duration) { return std::make_unique<Bounce>(scene, duration); }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

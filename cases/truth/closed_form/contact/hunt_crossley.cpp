@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr std::size_t kTerms = 24;
@@ -145,4 +145,4 @@ std::unique_ptr<BodyMotion> hunt_crossley_bounce(const Body& body, const Ground&
   return std::make_unique<HuntCrossleyBounce>(body, ground, stiffness, dissipation, duration);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

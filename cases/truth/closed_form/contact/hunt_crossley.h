@@ -6,10 +6,10 @@
 
 #include "cases/truth/closed_form/contact/plane_contact.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // `stiffness` k [N/m], `dissipation` d [s/m], both above 0. Throws InputError if the ball starts inside the plane.
 std::unique_ptr<BodyMotion> hunt_crossley_bounce(const Body& body, const Ground& ground, Extended stiffness,
                                                  Extended dissipation, Extended duration);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -14,7 +14,7 @@
 #include "cases/truth/closed_form/phased_motion.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kLineImpacts = "line-impacts";
@@ -157,4 +157,4 @@ TruthRow line_impacts_truth() {
           make_line_impacts};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 struct Segment {
@@ -104,4 +104,4 @@ void check_apart(const std::vector<SweptDisk>& sweeps, const Ground& ground) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -7,7 +7,7 @@
 
 #include "cases/truth/closed_form/closed_form.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // A larger gap counts as no contact: far above the digits of a case file, far below the judged errors.
 inline constexpr double kTouching = 1e-9;  // m
@@ -46,4 +46,4 @@ struct SweptDisk {
 // Throws InputError if two bodies' sweeps meet, whenever they pass.
 void check_apart(const std::vector<SweptDisk>& sweeps, const Ground& ground);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -12,7 +12,7 @@
 #include "cases/truth/closed_form/contact/plane_contact.h"
 #include "cases/truth/closed_form/phased_motion.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kPushed = "pushed";
@@ -189,4 +189,4 @@ TruthRow pushed_truth() {
   return {kPushed, "a box pushed over a level plane with balls rolling on it, in closed form", make_pushed};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

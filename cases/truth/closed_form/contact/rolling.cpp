@@ -16,7 +16,7 @@
 #include "cases/truth/closed_form/contact/plane_contact.h"
 #include "cases/truth/closed_form/phased_motion.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kRolling = "rolling";
@@ -222,4 +222,4 @@ TruthRow rolling_truth() {
   return {kRolling, "spheres slipping and rolling on a plane, level or sloping, in closed form", make_rolling};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -11,7 +11,7 @@
 #include "cases/truth/closed_form/contact/plane_contact.h"
 #include "cases/truth/closed_form/phased_motion.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kSliding = "sliding";
@@ -122,4 +122,4 @@ TruthRow sliding_truth() {
   return {kSliding, "boxes sliding, stopping and holding on a plane, level or sloping, in closed form", make_sliding};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

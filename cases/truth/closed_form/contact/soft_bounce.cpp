@@ -15,7 +15,7 @@
 #include "cases/truth/closed_form/contact/hunt_crossley.h"
 #include "cases/truth/closed_form/contact/plane_contact.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kSoftBounce = "soft-bounce";
@@ -184,4 +184,4 @@ TruthRow soft_bounce_truth() {
           make_soft_bounce};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

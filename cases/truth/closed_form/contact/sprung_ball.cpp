@@ -13,7 +13,7 @@
 #include "cases/truth/closed_form/contact/plane_contact.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kSprungBall = "sprung-ball";
@@ -158,4 +158,4 @@ TruthRow sprung_ball_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -14,7 +14,7 @@
 
 #include "cases/truth/closed_form/contact/plane_contact.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kName = "toppling";
@@ -183,4 +183,4 @@ TruthRow toppling_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

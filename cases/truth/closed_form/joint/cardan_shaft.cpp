@@ -17,7 +17,7 @@
 #include "cases/truth/closed_form/joint/swinging_body.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_cardan(const std::string& why) {
@@ -249,4 +249,4 @@ TruthRow cardan_shaft_truth() {
           make_cardan_shaft};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

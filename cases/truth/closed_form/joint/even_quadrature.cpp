@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr long double kLongPi = std::numbers::pi_v<long double>;
@@ -60,4 +60,4 @@ long double EvenQuadrature::at(long double u) const {
   return mean_ * u + now * std::sin(x);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline truth {
 
 class EvenQuadrature {
  public:
@@ -22,4 +22,4 @@ class EvenQuadrature {
   bool converges_ = false;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

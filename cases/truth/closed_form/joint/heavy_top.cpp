@@ -21,7 +21,7 @@
 #include "cases/truth/closed_form/smooth/principal_spin.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_heavy_top(const std::string& why) {
@@ -234,4 +234,4 @@ TruthRow heavy_top_truth() {
           make_heavy_top};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

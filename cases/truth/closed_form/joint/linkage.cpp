@@ -13,7 +13,7 @@
 #include "cases/truth/closed_form/joint/swinging_body.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_linkage(const std::string& why) {
@@ -181,4 +181,4 @@ TruthRow linkage_truth() {
   return {"linkage", "parallel cranks with what they carry, and trammels, in elliptic functions", make_linkage};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

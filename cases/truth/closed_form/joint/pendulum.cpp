@@ -11,7 +11,7 @@
 #include "cases/truth/closed_form/joint/swinging_body.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_pendulum(const std::string& why) {
@@ -97,4 +97,4 @@ TruthRow pendulum_truth() {
           make_pendulum};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -15,7 +15,7 @@
 #include "cases/truth/closed_form/smooth/jacobi_elliptic.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kImpactsAreFor =
@@ -256,4 +256,4 @@ TruthRow pendulum_impacts_truth() {
           make_pendulum_impacts};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -5,7 +5,7 @@
 
 #include "cases/truth/closed_form/smooth/jacobi_elliptic.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 PendulumPhase::PendulumPhase(Extended angle, Extended rate, Extended square)
     : w0_(std::sqrt(square)),
@@ -47,4 +47,4 @@ double PendulumPhase::error(double t) const {
   return 2 * std::max(1.0, static_cast<double>(k_)) * off;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -7,7 +7,7 @@
 
 #include "cases/truth/closed_form/closed_form.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 class PendulumPhase {
  public:
@@ -38,4 +38,4 @@ class PendulumPhase {
   Extended unsure_ = 0;             // rounding of the complement, relative
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

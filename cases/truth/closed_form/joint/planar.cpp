@@ -7,7 +7,7 @@
 #include "cases/truth/closed_form/joint/swinging_body.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr double kPlanarRoundings = 64 * kEpsilon;  // of the scene's numbers
@@ -79,4 +79,4 @@ std::unique_ptr<Truth> make_planar(const Scene& scene, double) {
 
 TruthRow planar_truth() { return {"planar", "a body that slides and turns in a plane, in closed form", make_planar}; }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

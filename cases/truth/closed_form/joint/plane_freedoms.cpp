@@ -4,7 +4,7 @@
 
 #include "cases/truth/closed_form/joint/swinging_body.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 using Plane2 = Eigen::Matrix<Extended, 2, 1>;
@@ -86,4 +86,4 @@ int plane_freedoms(const Scene& scene, const ExtendedVec3& axis, const std::vect
   return PlaneRows(scene, axis, poses).freedoms();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -6,7 +6,7 @@
 #include "cases/truth/closed_form/closed_form.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 struct PlanePose {
   ExtendedVec3 position = ExtendedVec3::Zero();  // m, in W
@@ -17,4 +17,4 @@ struct PlanePose {
 // the unit `axis`. Only hinges along the axis and sliders across it count.
 int plane_freedoms(const Scene& scene, const ExtendedVec3& axis, const std::vector<PlanePose>& poses);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

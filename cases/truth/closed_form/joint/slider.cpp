@@ -14,7 +14,7 @@
 #include "cases/truth/closed_form/smooth/damped_oscillation.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_slider(const std::string& why) {
@@ -123,4 +123,4 @@ TruthRow slider_truth() {
   return {"slider", "a body on a slider with its spring, damper and gravity, in closed form", make_slider};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

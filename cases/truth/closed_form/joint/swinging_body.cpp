@@ -7,7 +7,7 @@
 
 #include "cases/truth/closed_form/smooth/principal_spin.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr Extended kSwingingBodyRoundings = 64 * static_cast<Extended>(kEpsilon);  // of the scene's numbers, relative
@@ -134,4 +134,4 @@ std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, co
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -11,7 +11,7 @@
 
 #include "cases/truth/closed_form/joint/pendulum_phase.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 struct Swing {
   int body = kWorld;                           // index
@@ -35,4 +35,4 @@ std::unique_ptr<Truth> swinging(const Scene& scene, const ExtendedVec3& axis, co
 ExtendedVec3 standing_point(const Scene& scene, int body, const Vec3& point);
 bool stands(const Scene& scene, int body);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

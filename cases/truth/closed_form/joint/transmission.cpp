@@ -14,7 +14,7 @@
 #include "cases/truth/closed_form/joint/swinging_body.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_transmission(const std::string& why) {
@@ -167,4 +167,4 @@ TruthRow transmission_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

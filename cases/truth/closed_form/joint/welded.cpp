@@ -9,7 +9,7 @@
 #include "cases/truth/closed_form/smooth/asymmetric_top.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_welded(const std::string& why) {
@@ -109,4 +109,4 @@ TruthRow welded_truth() {
           make_welded};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

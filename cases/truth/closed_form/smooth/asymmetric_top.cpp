@@ -19,7 +19,7 @@
 #include "cases/truth/closed_form/smooth/jacobi_elliptic.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 // Near the separatrix |L|² - 2 E I2 is a small difference of two large sums, which would lose a long double's digits.
@@ -161,4 +161,4 @@ TruthRow asymmetric_top_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -3,9 +3,9 @@
 
 #include "cases/truth/closed_form/closed_form.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // Throws InputError for a body that does not turn, or has two equal moments.
 std::unique_ptr<BodyMotion> asymmetric_top(const Body& body, const Vec3& gravity);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

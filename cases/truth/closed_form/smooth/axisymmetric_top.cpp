@@ -9,7 +9,7 @@
 #include "cases/truth/closed_form/closed_form.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 class AxisymmetricTop final : public BodyMotion {
@@ -68,4 +68,4 @@ TruthRow axisymmetric_top_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

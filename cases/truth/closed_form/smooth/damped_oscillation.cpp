@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 struct Waves {
@@ -43,4 +43,4 @@ Extended DampedOscillation::error(Extended t) const {
   return 8 * std::numeric_limits<Extended>::epsilon() * (std::sqrt(square) + decay) * t * swing();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

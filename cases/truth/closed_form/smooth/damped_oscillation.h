@@ -8,7 +8,7 @@
 
 #include "cases/truth/closed_form/closed_form.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 struct DampedOscillation {
   Extended decay = 0, square = 0;    // 1/s; w0² in 1/s²
@@ -27,4 +27,4 @@ struct DampedOscillation {
   Extended error(Extended t) const;  // m, in extended precision
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

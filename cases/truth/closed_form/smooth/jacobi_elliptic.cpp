@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr long double kRounding = std::numeric_limits<long double>::epsilon();
@@ -86,4 +86,4 @@ long double DnQuadrature::waves(long double u) const {
   return now * std::sin(x);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

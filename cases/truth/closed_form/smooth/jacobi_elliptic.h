@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace rigor {
+namespace rigor::inline truth {
 
 struct JacobiElliptic {
   long double sn, cn, dn;
@@ -37,4 +37,4 @@ class DnQuadrature {
   std::vector<long double> waves_;  // coefficients of sin(n pi u / K), n = 1, 2, ..
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

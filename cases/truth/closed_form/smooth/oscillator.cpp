@@ -11,7 +11,7 @@
 #include "cases/truth/closed_form/smooth/principal_spin.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_oscillator(const std::string& why) {
@@ -145,4 +145,4 @@ TruthRow oscillator_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

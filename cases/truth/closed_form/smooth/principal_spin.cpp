@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline truth {
 
 PrincipalSpin::PrincipalSpin(const Body& body, const Vec3& axis) : start_(extended(body.orientation)) {
   if (axis.isZero(0)) return;
@@ -27,4 +27,4 @@ double PrincipalSpin::error(double angle) const {
   return rounding + static_cast<double>(wobble);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

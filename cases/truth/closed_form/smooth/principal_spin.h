@@ -5,7 +5,7 @@
 
 #include "cases/truth/closed_form/closed_form.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 class PrincipalSpin {
  public:
@@ -31,4 +31,4 @@ class PrincipalSpin {
   Extended growth_ = 0;       // of the wobble, in powers of e for each radian turned
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -9,7 +9,7 @@
 #include "cases/truth/closed_form/smooth/principal_spin.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_torque(const Body& body, const std::string& why) {
@@ -103,4 +103,4 @@ TruthRow principal_torque_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

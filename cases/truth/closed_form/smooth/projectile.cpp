@@ -5,7 +5,7 @@
 #include "cases/truth/closed_form/smooth/principal_spin.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 class Flight final : public BodyMotion {
@@ -39,4 +39,4 @@ TruthRow projectile_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -12,7 +12,7 @@
 #include "cases/truth/closed_form/closed_form.h"
 #include "core/base/error.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 [[noreturn]] void refuse_precession(const std::string& why) {
@@ -125,4 +125,4 @@ TruthRow steady_precession_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -5,7 +5,7 @@
 
 #include "core/scene/turned.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 Vec3 mirrored(const Vec3& v) { return {-v.x(), v.y(), v.z()}; }
@@ -232,4 +232,4 @@ void to_original(const Equivalence& how, BodyColumns equivalent, MutableBodyColu
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -5,7 +5,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // Applied in this order.
 struct Equivalence {
@@ -21,4 +21,4 @@ Scene equivalent(Scene scene, const Equivalence& how);
 void to_equivalent(const Equivalence& how, BodyColumns original, MutableBodyColumns out);
 void to_original(const Equivalence& how, BodyColumns equivalent, MutableBodyColumns out);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -18,7 +18,7 @@
 #include "core/scene/contact_laws.h"
 #include "core/world.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 // In the scene's units of speed: below the restitution threshold of the truth's run a body lies still.
@@ -126,4 +126,4 @@ TruthRow events_truth() {
           make_events};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -12,7 +12,7 @@
 #include "cases/truth/solved/events/events_stepping.h"
 #include "cases/truth/solved/pose_interpolation.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 const EventsWay kFinest = {"dormand-prince", "1e-12", "0.05", {}};
@@ -227,4 +227,4 @@ void state_at(const ReferenceSolution& solution, const Scene& scene, double t, M
   for (std::size_t b = 0; b < bodies; ++b) out.set_body(b, std::as_const(state).columns().body(b));
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -5,7 +5,7 @@
 
 #include "cases/truth/solved/reference_solver.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 // As in ReferenceSolution: nodes at equal distances with thirteen numbers per body, laid out as in BodyTable. One more
 // number is 1 if no event lies before the next node. The errors say how far the solution is reliable, complete or not.
@@ -15,4 +15,4 @@ ReferenceSolution solve_events(const Scene& scene, double duration);
 // step of the method from the node before.
 void state_at(const ReferenceSolution& solution, const Scene& scene, double t, MutableBodyColumns out);
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -5,7 +5,7 @@
 
 #include "core/dynamics/model/contact_scales.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 constexpr const char* kPatience = "10";  // what a run takes in inelastic steps is found event by event here
@@ -80,4 +80,4 @@ std::vector<ContactTie> EventsStepping::ties() const {
   return ties;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -11,7 +11,7 @@
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/joints/joint_stops.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 struct EventsWay {
   const char* integrator;
@@ -55,4 +55,4 @@ class EventsStepping {
   BodyTable state_;  // of the equivalent scene
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/scene/features/features.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 ReferenceSolution reference_solution(const Scene& scene, double duration) {
@@ -63,4 +63,4 @@ TruthRow reference_truth() {
           make_reference};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -29,7 +29,7 @@
 #include "core/base/error.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 namespace {
 
 using namespace solving;
@@ -348,4 +348,4 @@ TruthRow round_on_plane_truth() {
           }};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -9,7 +9,7 @@
 #include "cases/truth/solved/solving.h"
 #include "cases/truth/truth.h"
 
-namespace rigor {
+namespace rigor::inline truth {
 
 class SolvedTruth final : public Truth {
  public:
@@ -31,4 +31,4 @@ class SolvedTruth final : public Truth {
   ReferenceSolution solution_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline truth

@@ -11,7 +11,7 @@
 #include "core/dynamics/collision/curved/flat_areas.h"
 #include "core/dynamics/collision/side_by_side.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kOutsideArea = 1e-6;  // of the smaller inradius: a point still counts so far outside of a border
@@ -245,4 +245,4 @@ void collide_curved(const CurvedSolid& a, const CurvedSolid& b, Manifold& out, d
   TwoCurved(a, b, out, far).find();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

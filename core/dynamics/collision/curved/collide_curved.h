@@ -5,7 +5,7 @@
 #include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 void collide_curved(const CurvedSolid& a, const Box& b, const Pose& pose_b, Manifold& out, double far);
 void collide_curved(const CurvedSolid& a, const Convex& b, const Pose& pose_b, Manifold& out, double far);
@@ -15,4 +15,4 @@ void collide_curved(const CurvedSolid& a, const CurvedSolid& b, Manifold& out, d
 // On a surface: the points with a gap of at most the solid's size.
 void collide_curved(const CurvedSolid& a, const TriangleSurface& b, const Pose& pose_b, Manifold& out);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 #include "core/dynamics/collision/curved/smooth_ascent.h"
 #include "core/dynamics/collision/side_by_side.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kSameWay = 1e-12;     // of the size: by how much a point may reach beyond the one that is looked at
@@ -314,4 +314,4 @@ CurvedAxis best_axis(const CurvedSolid& solid, const CurvedSolid& other, double 
   return FromCurved(solid, other).find(far);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

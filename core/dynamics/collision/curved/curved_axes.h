@@ -9,7 +9,7 @@
 #include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/collision/placed_hull.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct CurvedAxis {
   double separation = -std::numeric_limits<double>::infinity();  // m
@@ -23,4 +23,4 @@ CurvedAxis best_axis(const CurvedSolid& solid, const PlacedHull& hull, double fa
 CurvedAxis best_axis(const CurvedSolid& solid, const Line& line);
 CurvedAxis best_axis(const CurvedSolid& solid, const CurvedSolid& other, double far);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -13,7 +13,7 @@
 #include "core/dynamics/collision/side_by_side.h"
 #include "core/dynamics/collision/surface_contacts.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Numbers of features beside those of points.
@@ -168,4 +168,4 @@ void collide_curved(const CurvedSolid& a, const TriangleSurface& b, const Pose& 
   add_touches(out, on.find(size), pose_b);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

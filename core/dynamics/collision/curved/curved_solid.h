@@ -9,7 +9,7 @@
 
 #include "core/dynamics/collision/narrow_phase.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Rounding must not choose the points of a cylinder that stands upright: the sine of the tilt up to which it does.
 inline constexpr double kUpright = 1e-9;
@@ -144,4 +144,4 @@ inline Line deepest_line(const CurvedSolid& cylinder, const Vec3& n) {
   return {from, from - 2 * cylinder.half() * lower.out, lower.is_top()};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // By Newton's method from the left, where the function is convex and falls.
 double nearest_root(const Vec3& squares, const Vec3& rp) {
@@ -168,4 +168,4 @@ Ways ways_from_point(const CurvedSolid& solid, const Vec3& p) {
   return ways;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

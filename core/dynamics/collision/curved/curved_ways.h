@@ -5,7 +5,7 @@
 
 #include "core/dynamics/collision/curved/curved_solid.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Unit vectors, from the line or point to the solid.
 class Ways {
@@ -30,4 +30,4 @@ double nearest_root(const Vec3& squares, const Vec3& products);
 // The direction out of an ellipsoid about the origin, at the point of its surface that is nearest to p.
 Vec3 out_of_ellipsoid(const Vec3& radii, const Vec3& p);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

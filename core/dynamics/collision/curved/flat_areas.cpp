@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Numbers of features, so that none is used twice in a manifold.
@@ -229,4 +229,4 @@ void add_area(const CurvedSolid& upper, const Disc& lower, const AreaPoints& to)
 void add_area(const Disc& upper, const FlatFace& lower, const AreaPoints& to) { add_reduced_end(upper, lower, to); }
 void add_area(const Line& upper, const Disc& lower, const AreaPoints& to) { add_line(upper, lower, to); }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -6,7 +6,7 @@
 #include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/collision/placed_hull.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Takes the points of one area. Each is a point of the upper shape and the one straight below it, along n.
 struct AreaPoints {
@@ -39,4 +39,4 @@ void add_area(const CurvedSolid& upper, const Disc& lower, const AreaPoints& to)
 void add_area(const Disc& upper, const FlatFace& lower, const AreaPoints& to);
 void add_area(const Line& upper, const Disc& lower, const AreaPoints& to);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -6,7 +6,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // A separation along n: homogeneous of degree 1 and concave in n, so its value is n · gradient.
 struct SeparationAt {
@@ -71,4 +71,4 @@ Vec3 uphill(const Separation& separation, Vec3 n, double size) {
   return n;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -14,7 +14,7 @@
 #include "core/engine/state_archive.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 struct Ground {
@@ -197,4 +197,4 @@ const ContactMethod kCourseContact = {
     .make = make_contact_stepper<CourseStepper>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kMostRounds = 60, kMostSteps = 40, kMostBacktracks = 20;
@@ -162,4 +162,4 @@ bool ConeNewton::solve(BodyColumns state, std::vector<ConeConstraint>& points, d
   return true;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

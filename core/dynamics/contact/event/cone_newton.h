@@ -11,7 +11,7 @@
 #include "core/base/factors.h"
 #include "core/dynamics/contact/event/cone_solver.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ConeNewton {
  public:
@@ -62,4 +62,4 @@ class ConeNewton {
   DenseFactors factors_;  // of it
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 #include "core/dynamics/contact/event/cone_sweeps.h"
 #include "core/dynamics/joints/islands.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kSweepsAtATime = 30;
@@ -232,4 +232,4 @@ bool ConeSolver::sweep_until_settled(MutableBodyColumns state, std::vector<ConeC
   return last <= accuracy_.near_rest * size;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

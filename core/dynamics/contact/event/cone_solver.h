@@ -14,7 +14,7 @@
 
 #include "core/dynamics/joints/impulse_responses.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct ConeConstraint {
   int a = 0, b = 0;                                 // bodies, or the world; the impulse acts on a, its opposite on b
@@ -107,4 +107,4 @@ class ConeSolver {
   std::vector<Response> responses_;  // of the points that were prepared last, with joints
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

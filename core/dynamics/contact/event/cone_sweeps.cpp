@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 double disc(double friction, double normal) {
@@ -200,4 +200,4 @@ bool ConeSweeps::leap(std::vector<ConeConstraint>& points) {
   return true;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 
 #include "core/dynamics/contact/event/cone_solver.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ConeSweeps {
  public:
@@ -51,4 +51,4 @@ class ConeSweeps {
   std::vector<Vec6> speeds_;                  // of these
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 
 #include "core/dynamics/joints/islands.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // In the scene's units of acceleration and speed.
@@ -175,4 +175,4 @@ double ContactModes::violation(BodyColumns state, const double* wrench) {
   return most;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 
 #include "core/dynamics/contact/event/persistent/persistent_forces.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ContactModes {
  public:
@@ -47,4 +47,4 @@ class ContactModes {
   double size_ = 0;  // m/s²
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

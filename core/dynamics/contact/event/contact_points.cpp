@@ -9,7 +9,7 @@
 #include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/contact/event/features/feature_ends.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kAtOnce = 1e-9;  // units of gaps: more than any gap that counts as closed
@@ -258,4 +258,4 @@ bool ContactPoints::follow(BodyColumns state, ContactPoint& contact) {
   return true;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -11,7 +11,7 @@
 #include "core/dynamics/model/contact_scales.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct ContactPoint {
   int a, b;                              // colliders; kLimit of a limit
@@ -85,4 +85,4 @@ class ContactPoints {
   Manifold manifold_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

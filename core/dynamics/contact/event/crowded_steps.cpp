@@ -10,7 +10,7 @@
 #include "core/dynamics/contact/event/impacts.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kLongest = 1.0 / 24;  // in the scene's units of time
@@ -143,4 +143,4 @@ void CrowdedSteps::solve_where_they_came_to(MutableBodyColumns state) {
   for (std::size_t i = 0; i < touching_.size(); ++i) touching_[i].cone = cones_[i];
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -13,7 +13,7 @@
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/contact/event/contact_points.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class CrowdedSteps {
  public:
@@ -54,4 +54,4 @@ class CrowdedSteps {
   std::string solver_warning_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

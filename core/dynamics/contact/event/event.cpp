@@ -31,7 +31,7 @@
 #include "core/engine/option_values.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -442,4 +442,4 @@ const ContactMethod kEventContact = {
     .make = make_contact_stepper<EventStepper>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

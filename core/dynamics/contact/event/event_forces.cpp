@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // A point that persists from one part of the step to the next is one contact, where it was first. The constraint's
 // normal points from its b to its a.
@@ -25,4 +25,4 @@ void EventForces::end_step(double dt) {
   for (ReportedContact& contact : contacts_) contact.force /= dt;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 #include "core/dynamics/contact/event/contact_points.h"
 #include "core/engine/capabilities.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class EventForces : public ReportsContacts {
  public:
@@ -26,4 +26,4 @@ class EventForces : public ReportsContacts {
   std::vector<ContactPoint> places_;  // of the contacts
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

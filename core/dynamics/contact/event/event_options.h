@@ -6,7 +6,7 @@
 #include "core/dynamics/contact/event/impacts.h"
 #include "core/engine/option_info.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 inline const OptionInfo kRestitutionThresholdOption{
     .name = "restitution-threshold",
@@ -26,4 +26,4 @@ inline const OptionInfo kPatienceOption{.name = "patience",
                                         .max = 1e6,
                                         .by_default = 1.0};
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

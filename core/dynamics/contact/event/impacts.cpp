@@ -8,7 +8,7 @@
 #include "core/dynamics/joints/islands.h"
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kMostImpactRounds = 2000;  // before every touching point is taken together, without rebound
@@ -182,4 +182,4 @@ double kinetic_energy(const System& system, BodyColumns state) {
   return energy;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -12,7 +12,7 @@
 #include "core/dynamics/contact/event/contact_points.h"
 #include "core/engine/engine.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // In the scene's units of speed. An approach that is slower than this leaves no rebound, unless a run names another
 // threshold. A sequence of bounces then ends 2 u / (g (1 - e)) early, which for e = 0.9 on Earth is 2e-7 s.
@@ -74,4 +74,4 @@ class Impacts {
   std::string solver_warning_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

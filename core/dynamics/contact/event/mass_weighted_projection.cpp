@@ -1,6 +1,6 @@
 #include "core/dynamics/contact/event/mass_weighted_projection.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Redundant points make the Delassus matrix singular. This share of its diagonal is added, and iterative refinement
@@ -125,4 +125,4 @@ ProjectionTarget target_of(const ConeConstraint& cone, int axis, double amount, 
           .bilateral = bilateral};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -14,7 +14,7 @@
 #include "core/base/factors.h"
 #include "core/dynamics/contact/event/cone_solver.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct ProjectionTarget {
   int a = 0, b = 0;            // bodies, or the world
@@ -63,4 +63,4 @@ class MassWeightedProjection {
   std::string solver_warning_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

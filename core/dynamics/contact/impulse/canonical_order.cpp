@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr std::size_t kMostOrdered = 100;  // colliders
@@ -83,4 +83,4 @@ std::vector<Vec3> mirrored_axes(const Scene& scene, const std::vector<Collider>&
   return axes;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 
 #include "core/dynamics/collision/colliders.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Lowest first, then by mass, size and speed; planes last. Bodies that are alike in all of these keep the scene's
 // order. So do many bodies: neighbours in memory then matter more, and a pile is chaotic in any order.
@@ -18,4 +18,4 @@ std::vector<Collider> in_canonical_order(const Scene& scene, std::vector<Collide
 // its mirror image.
 std::vector<Vec3> mirrored_axes(const Scene& scene, const std::vector<Collider>& colliders);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 
 #include "core/dynamics/kernels/contact_kernels.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 double& at(double* block, int column, std::size_t k) {
@@ -275,4 +275,4 @@ std::size_t ContactRowLayout::constraint_of(const double* first) const {
   return pairs_[static_cast<std::size_t>(pair)].first + offset / size;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -11,7 +11,7 @@
 #include "core/dynamics/kernels/contact_rows.h"
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Rows that nothing acts on.
 void clear_rows(const RowGroup& group);
@@ -98,4 +98,4 @@ class ContactRowLayout {
   bool has_restitution_ = false, has_deep_ = false;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 using Vec2 = Eigen::Vector2d;  // along the two tangents of a contact
 
@@ -30,4 +30,4 @@ inline Vec2 onto_disc(const Vec2& impulse, const Vec2& slip, const TangentMass& 
   return size > radius ? Vec2(radius / size * slide) : slide;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

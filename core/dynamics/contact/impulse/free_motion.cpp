@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 void FreeMotion::advance(double t) { pose = {pose.p + t * v, rotation_by(t * w).toRotationMatrix() * pose.R}; }
 
@@ -49,4 +49,4 @@ double time_of_turning_impact(const Collider& a, const Collider& b, const FreeMo
   return t;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -3,7 +3,7 @@
 
 #include "core/dynamics/collision/colliders.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Of a body that nothing touches.
 struct FreeMotion {
@@ -26,4 +26,4 @@ double time_of_impact(const Manifold& points, const FreeMotion& a, const FreeMot
 double time_of_turning_impact(const Collider& a, const Collider& b, const FreeMotion& motion_a,
                               const FreeMotion& motion_b, double turning, double margin, double dt);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

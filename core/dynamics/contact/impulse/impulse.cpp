@@ -29,7 +29,7 @@
 #include "core/engine/engine_failure.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // With fewer bodies threads would wait for each other longer than they work.
@@ -328,4 +328,4 @@ const ContactMethod kImpulseContact = {
     .make = make_impulse_stepper,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -12,7 +12,7 @@
 #include "core/dynamics/contact/impulse/sub_steps.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 class JointedImpulseStepper : public ContactStepper {
@@ -122,4 +122,4 @@ std::unique_ptr<ContactStepper> make_jointed_impulse_stepper(const Scene& scene,
   return std::make_unique<JointedImpulseStepper>(scene, parts);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,9 +5,9 @@
 
 #include "core/dynamics/contact/contact_method.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // The parts have joints.
 std::unique_ptr<ContactStepper> make_jointed_impulse_stepper(const Scene& scene, const ContactParts& parts);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

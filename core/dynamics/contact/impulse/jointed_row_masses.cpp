@@ -5,7 +5,7 @@
 
 #include "core/dynamics/contact/impulse/jointed_rows.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 void JointedRows::place_bodies() {
   std::size_t next = 0;
@@ -87,4 +87,4 @@ double JointedRows::lever_of(const Row& row) const {
   return std::sqrt(row.mass * inverse_mass);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 
 #include "core/dynamics/contact/impulse/rebounds/impact_energy.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kSweeps = 4;  // over all rows, in each of the two passes
@@ -294,4 +294,4 @@ void JointedRows::sweep_impacts(const Solve& solve) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

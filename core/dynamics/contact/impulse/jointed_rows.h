@@ -12,7 +12,7 @@
 #include "core/dynamics/joints/impulse_responses.h"
 #include "core/dynamics/kernels/contact_rows.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class JointedRows {
  public:
@@ -129,4 +129,4 @@ class JointedRows {
   SolverParameters parameters_{};
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 #include "core/dynamics/contact/impulse/free_motion.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // In inradii of the body, or of the smaller of two.
@@ -354,4 +354,4 @@ std::string Manifolds::failure() const {
   return "";
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

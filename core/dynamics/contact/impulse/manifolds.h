@@ -13,7 +13,11 @@
 #include "core/dynamics/kernels/contact_kernels.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline engine {
+class StateArchive;
+}
+
+namespace rigor::inline dynamics {
 
 // A contact point of two bodies that touch, or may meet before the next update; then it is where they will. Impulses
 // are those of one sub-step.
@@ -35,8 +39,6 @@ struct ContactConstraint {
             rest_overlap);
   }
 };
-
-class StateArchive;
 
 class Manifolds {
  public:
@@ -128,4 +130,4 @@ class Manifolds {
   std::vector<ContactConstraint> constraints_, old_constraints_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -1,6 +1,6 @@
 #include "core/dynamics/contact/impulse/mean_motion.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 void displace(std::size_t body, const Vec3& distance, const Vec3& angle, MutableBodyColumns state) {
   state.set_position(body, state.position(body) + distance);
@@ -25,4 +25,4 @@ void MeanMotion::apply(std::size_t body, double h, MutableBodyColumns state) con
   if (is_needed_) displace(body, h * changes_[body].v, h * changes_[body].w, state);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

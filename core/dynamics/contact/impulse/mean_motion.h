@@ -9,7 +9,7 @@
 #include "core/base/math.h"
 #include "core/dynamics/integrators/integrator.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Moves a body by `distance` [m] and turns it by `angle` [rad, about an axis in W].
 void displace(std::size_t body, const Vec3& distance, const Vec3& angle, MutableBodyColumns state);
@@ -32,4 +32,4 @@ class MeanMotion {
   std::vector<Change> changes_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 void RowSweeps::clear() {
   groups_.clear(), sources_.clear();
@@ -80,4 +80,4 @@ void RowSweeps::solve(Sweep sweep, const SolverBodies& bodies, const SolverParam
   threads_.meet();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -10,7 +10,7 @@
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
 #include "core/dynamics/kernels/contact_kernels.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class RowSweeps {
  public:
@@ -47,4 +47,4 @@ class RowSweeps {
   AlignedDoubles copies_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // A constraint's normal points from its b to its a, and its impulse acts on its a.
 void StepImpulses::begin_update(const std::vector<ContactConstraint>& constraints, BodyColumns state) {
@@ -41,4 +41,4 @@ void StepImpulses::end_step(double dt) {
   for (ReportedContact& contact : contacts_) contact.force /= dt;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 #include "core/dynamics/contact/impulse/rebounds/rebounds.h"
 #include "core/engine/capabilities.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class StepImpulses : public ReportsContacts {
  public:
@@ -37,4 +37,4 @@ class StepImpulses : public ReportsContacts {
   std::vector<Vec3> impulses_;  // N s, of the update's constraints
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

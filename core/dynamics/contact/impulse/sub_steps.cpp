@@ -9,7 +9,7 @@
 
 #include "core/engine/option_values.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // In units of the scene's time sqrt(L/g), so that equal scenes in other units get equal sub-steps. A stack of n bodies
@@ -156,4 +156,4 @@ SettingsInForce SubSteps::settings_in_force() const {
           {"sub-steps", given_ > 0 ? fmt::format("{} a step", given_) : by_default}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

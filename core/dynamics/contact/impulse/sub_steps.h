@@ -4,7 +4,7 @@
 #include "core/dynamics/contact/contact_method.h"
 #include "core/dynamics/kernels/contact_rows.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 inline const OptionInfo kSubStepsOption{
     .name = "substeps",
@@ -57,4 +57,4 @@ class SubSteps {
   double gravity_, theta_;   // m/s²; see SolverParameters
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 
 #include "core/dynamics/contact/impulse/coulomb_disc.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Records hold v, then w.
@@ -82,4 +82,4 @@ void TurningFriction::solve(const SolverBodies& bodies) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

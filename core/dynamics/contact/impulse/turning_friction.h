@@ -11,7 +11,7 @@
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class TurningFriction {
  public:
@@ -55,4 +55,4 @@ class TurningFriction {
   std::vector<Row> rows_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

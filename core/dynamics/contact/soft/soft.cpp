@@ -18,7 +18,7 @@
 #include "core/engine/state_archive.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // A sphere, and another or a plane.
@@ -175,4 +175,4 @@ const ContactMethod kSoftContact = {
     .make = make_contact_stepper<SoftStepper>,
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 ForceSchedule::ForceSchedule(const std::vector<TimedForce>& forces) : latest_end_(forces.size()) {
   for (std::size_t i = 0; i < forces.size(); ++i) {
@@ -51,4 +51,4 @@ double ForceSchedule::next_switch(double t, double end) const {
   return next != switches_.begin() && *(next - 1) > end ? *(next - 1) : end;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

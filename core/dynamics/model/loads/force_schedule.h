@@ -9,7 +9,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ForceSchedule {
  public:
@@ -35,4 +35,4 @@ class ForceSchedule {
   std::vector<double> switches_;    // s, ascending, each once
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -1,6 +1,6 @@
 #include "core/dynamics/model/loads/load_jacobian.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // d (force on b's point) = -by_distance d(d) - by_speed d(d'), with d the vector from a's point to b's:
@@ -89,4 +89,4 @@ void visit_load_jacobian(const Loads& loads, BodyColumns bodies, double t, doubl
   });
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -6,7 +6,7 @@
 
 #include "core/dynamics/model/loads/loads.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
@@ -21,4 +21,4 @@ struct WrenchDerivative {
 void visit_load_jacobian(const Loads& loads, BodyColumns bodies, double t, double dt,
                          const std::function<void(const WrenchDerivative&)>& visit);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 
 #include "core/scene/turn_window.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 void add_force(int body, const Vec3& force, const Vec3& arm, Wrenches& out) {
@@ -176,4 +176,4 @@ std::vector<ServoDrive>* Loads::servos_of(std::size_t joint) {
   return drive == drives_.end() || drive->servos.empty() ? nullptr : &drive->servos;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -12,7 +12,7 @@
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // Force [N] and torque about the centre of mass [N m], both in W.
 struct Wrench {
@@ -155,4 +155,4 @@ class Loads {
   bool damped_ = false, quadratic_ = false;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Of `most`: a branch holds so far beyond its end, so that rounding does not switch it back and forth.
@@ -55,4 +55,4 @@ double ServoDrive::next_sample(double t, double end) const {
   return servo().period == 0 ? end : motor_.next_switch(t, end);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 
 #include "core/scene/drives.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ServoDrive {
  public:
@@ -49,4 +49,4 @@ class ServoDrive {
   double last_sample_ = -1;  // its number
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 #include "core/base/json.h"
 #include "core/scene/contact_laws.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 Json list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -286,4 +286,4 @@ std::string scene_toml(const Scene& scene) {
   return values + tables;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

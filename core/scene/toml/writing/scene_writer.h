@@ -7,11 +7,11 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 std::string scene_toml(const Scene& scene);  // the tables [scene], [[scene.body]], ... of a case file
 std::string scene_json(const Scene& scene);  // the value of `scene` as one line of JSON, with the same keys
 // {"type": …, …} as one line of JSON; of a compound a list of these, with their poses.
 std::string shape_json(const Shape& shape);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -12,7 +12,7 @@
 #include "core/scene/toml/table_reader.h"
 #include "core/scene/toml/text_offset.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 struct Step {
@@ -160,4 +160,4 @@ std::string with_value(const std::string& text, const std::string& path, const s
   return changed.replace(edit.begin, edit.end - edit.begin, edit.text);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rigor {
+namespace rigor::inline scene {
 
 // `path` names the value: scene.gravity[1], scene.spring[0].stiffness, scene.body.cube.mass (a row by its name or by
 // its number from 0), scene.contact_default.friction. A missing key is added to its table. Throws InputError, with a
@@ -11,4 +11,4 @@ namespace rigor {
 // read.
 std::string with_value(const std::string& text, const std::string& path, const std::string& value);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

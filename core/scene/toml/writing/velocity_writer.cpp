@@ -9,7 +9,7 @@
 #include "core/scene/toml/scene_reader.h"
 #include "core/scene/toml/table_reader.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 namespace {
 
 struct VelocityEdit {
@@ -55,4 +55,4 @@ std::string with_velocities(const TomlFile& file, const TomlValue& scene, const 
   return text;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -5,7 +5,7 @@
 
 #include "core/scene/scene.h"
 
-namespace rigor {
+namespace rigor::inline scene {
 
 class TomlFile;
 class TomlValue;
@@ -14,4 +14,4 @@ class TomlValue;
 // its own, are not in the file and are left out.
 std::string with_velocities(const TomlFile& file, const TomlValue& scene, const Scene& settled);
 
-}  // namespace rigor
+}  // namespace rigor::inline scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 AccelerationBounds::AccelerationBounds(const System& system) : system_(system) {
   for (const Inertia& body : system.bodies) {
@@ -113,4 +113,4 @@ void AccelerationBounds::apply(const Ends& ends, const Bounds& guess, Bounds& ou
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

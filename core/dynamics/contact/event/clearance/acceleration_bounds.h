@@ -16,7 +16,7 @@
 
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct AccelerationBound {
   double linear = 0;   // m/s², of the centre of mass
@@ -60,4 +60,4 @@ class AccelerationBounds {
   Bounds bounds_, guess_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 #include "core/dynamics/contact/event/clearance/surface_clearance.h"
 #include "core/dynamics/contact/event/features/surface_features.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kNothingNear = std::numeric_limits<double>::infinity();
@@ -205,4 +205,4 @@ double Clearance::least_gap_of_limits(const std::vector<ContactPoint>& touching,
   return least;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

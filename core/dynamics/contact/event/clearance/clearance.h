@@ -7,7 +7,7 @@
 #include "core/dynamics/collision/conservative_advancement.h"
 #include "core/dynamics/contact/event/persistent/persistent_contact.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class Clearance {
  public:
@@ -62,4 +62,4 @@ class Clearance {
   AccelerationBounds bounds_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

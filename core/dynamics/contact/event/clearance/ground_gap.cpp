@@ -9,7 +9,7 @@
 #include "core/dynamics/collision/placed_hull.h"
 #include "core/dynamics/collision/side_by_side.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Outwards at a point of a surface: the mean of the normals around it, weighed by the angles of the triangles
@@ -144,4 +144,4 @@ double gap_above_ground(const Collider& body, const Pose& pose, const TriangleSu
   return least;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

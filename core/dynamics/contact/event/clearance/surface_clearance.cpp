@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 const TriangleSurface* surface_of(const Collider& collider) {
   const SurfaceShape* on = surface_in(collider.shape);
   return on ? on->surface.get() : nullptr;
@@ -66,4 +66,4 @@ double SurfaceClearance::least_height(int triangle) const {
   return u.cross(v).norm() / std::max({u.norm(), v.norm(), (u - v).norm()});
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -12,7 +12,7 @@
 #include "core/dynamics/collision/conservative_advancement.h"
 #include "core/scene/shapes/surface.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class SurfaceClearance {
  public:
@@ -47,4 +47,4 @@ class SurfaceClearance {
 // The surface of a collider, or null.
 const TriangleSurface* surface_of(const Collider& collider);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 #include "core/dynamics/collision/side_by_side.h"
 #include "core/dynamics/contact/event/features/surface_features.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 using Kind = ContactFeature::Kind;
@@ -235,4 +235,4 @@ FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pos
   return {of_a.point, {Kind::plane, of_b.point.at, pose_b.R.transpose() * point.normal}};
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

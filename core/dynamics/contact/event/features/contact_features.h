@@ -15,7 +15,7 @@
 
 #include "core/dynamics/collision/colliders.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct ContactFeature {
   enum class Kind : std::uint8_t { point, line, plane, round } kind = Kind::point;
@@ -48,4 +48,4 @@ constexpr double kAtEnd = 1e-11;
 FeaturePair features_at(const ManifoldPoint& point, const Collider& a, const Pose& pose_a, const Collider& b,
                         const Pose& pose_b);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

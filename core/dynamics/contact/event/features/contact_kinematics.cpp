@@ -5,7 +5,7 @@
 #include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/contact/event/features/round_surface.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 using Kind = ContactFeature::Kind;
@@ -139,4 +139,4 @@ ContactKinematics contact_kinematics(const FeaturePair& features, const RigidMot
   return point_on_point(of_a, of_b);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -3,7 +3,7 @@
 
 #include "core/dynamics/contact/event/features/contact_features.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct ContactKinematics {
   Vec3 normal = Vec3::UnitX(), point = Vec3::Zero();  // unit, from b to a; m, midway between the surfaces; in W
@@ -13,4 +13,4 @@ struct ContactKinematics {
 
 ContactKinematics contact_kinematics(const FeaturePair& features, const RigidMotion& a, const RigidMotion& b);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

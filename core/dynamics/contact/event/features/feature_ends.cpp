@@ -8,7 +8,7 @@
 #include "core/dynamics/contact/event/features/round_surface.h"
 #include "core/dynamics/contact/event/features/surface_features.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 using Kind = ContactFeature::Kind;
@@ -113,4 +113,4 @@ double distance_from_ends(const FeaturePair& features, const ContactKinematics& 
                    of_rim(features.a, features.b, pose_a.R, -n), of_rim(features.b, features.a, pose_b.R, n)});
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

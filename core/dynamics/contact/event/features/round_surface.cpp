@@ -2,7 +2,7 @@
 
 #include "core/dynamics/collision/curved/curved_ways.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 RoundPoint point_with_normal(const Mat3& half_axes, const Vec3& normal) {
   const Vec3 stretched = half_axes.transpose() * normal;
@@ -19,4 +19,4 @@ Vec3 nearest_point(const Mat3& half_axes, const Vec3& p) {
   return half_axes * along.cwiseQuotient((squares.array() + nearest_root(squares, along)).matrix());
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

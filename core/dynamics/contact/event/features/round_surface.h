@@ -8,7 +8,7 @@
 
 #include "core/base/math.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct RoundPoint {
   Vec3 at;        // m, from the centre
@@ -23,4 +23,4 @@ Vec3 nearest_point(const Mat3& half_axes, const Vec3& p);
 // The third half-axis of a rim is zero.
 inline bool is_rim(const Mat3& half_axes) { return half_axes.col(2).isZero(0); }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 using Kind = ContactFeature::Kind;
@@ -210,4 +210,4 @@ double distance_from_end(const TriangleSurface& surface, const ContactFeature& o
   return least;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

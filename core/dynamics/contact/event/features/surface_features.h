@@ -7,7 +7,7 @@
 #include "core/dynamics/contact/event/features/feature_choices.h"
 #include "core/scene/shapes/surface.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // At a point [m, in B] with the outward normal.
 Choices choices_on_surface(const TriangleSurface& surface, const Vec3& at, const Vec3& normal);
@@ -23,4 +23,4 @@ double distance_from_end(const TriangleSurface& surface, const ContactFeature& o
 // The numbers of all patches that reach to a point [m, in B]: one inside a patch, several on its border.
 void find_patches_at(const TriangleSurface& surface, const Vec3& at, std::vector<int>& out);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

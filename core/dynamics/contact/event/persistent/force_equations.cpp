@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // rho of a row, in units of its own effective mass. Each round leaves some 1/rho of an error and loses as many digits,
@@ -127,4 +127,4 @@ void ForceEquations::solve(const Eigen::VectorXd& free) {
   }
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

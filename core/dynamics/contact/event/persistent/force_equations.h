@@ -11,7 +11,7 @@
 
 #include "core/base/factors.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ForceEquations {
  public:
@@ -60,4 +60,4 @@ class ForceEquations {
   Eigen::VectorXd acceleration_, residual_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -86,4 +86,4 @@ void GapClosing::part_one_by_one(MutableBodyColumns state) {
   for (std::size_t i = 0; i < state.size(); ++i) state.set_position(i, state.position(i) + moved_[i]);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -10,7 +10,7 @@
 #include "core/dynamics/contact/event/mass_weighted_projection.h"
 #include "core/dynamics/contact/event/persistent/persistent_forces.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class GapClosing {
  public:
@@ -38,4 +38,4 @@ class GapClosing {
   std::vector<ProjectionTarget> targets_;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 #include "core/engine/option_values.h"
 #include "core/engine/state_archive.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -338,4 +338,4 @@ void PersistentContact::archive_state(StateArchive& archive) {
 
 std::string PersistentContact::solver_warning() const { return stepper().solver_warning(); }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -16,7 +16,7 @@
 #include "core/dynamics/joints/joint_stops.h"
 #include "core/dynamics/model/wrench_columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class PersistentContact {
  public:
@@ -127,4 +127,4 @@ class PersistentContact {
   long passes_ = 0;
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

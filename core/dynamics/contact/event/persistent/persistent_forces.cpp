@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kNoSlip = 1e-6;  // in the scene's units of speed: a slip that has no direction of its own yet
@@ -337,4 +337,4 @@ const double* PersistentForces::hold(BodyColumns state, const double* wrench, Ro
   return wrench_.data();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -19,7 +19,7 @@
 #include "core/dynamics/model/constraint_forces.h"
 #include "core/engine/columns.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct PersistentPoint {
   enum class Mode : std::uint8_t { sticks, slides } mode = Mode::sticks;
@@ -115,4 +115,4 @@ class PersistentForces : public ConstraintForces {
   std::vector<Loading> now_, largest_;  // by body
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

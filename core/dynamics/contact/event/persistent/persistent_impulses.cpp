@@ -3,7 +3,7 @@
 
 #include "core/dynamics/contact/event/persistent/persistent_contact.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // Gauss's nodes and weights on [0, 1]: exact for forces that are polynomials of degree five in time.
@@ -45,4 +45,4 @@ void PersistentContact::visit_forces(BodyColumns start, double t, double h, cons
   passes_ = passes;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 bool Rest::goes_on(BodyColumns state, double t, double dt) const {
   return from_ <= t && t + dt <= until_ && is_same(state);
@@ -21,4 +21,4 @@ bool Rest::is_same(BodyColumns state) const {
   return true;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

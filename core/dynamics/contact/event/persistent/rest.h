@@ -4,7 +4,7 @@
 
 #include "core/engine/body_table.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class Rest {
  public:
@@ -23,4 +23,4 @@ class Rest {
   double from_ = 0, until_ = -1;  // s; until_ < from_: no rest
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -7,7 +7,7 @@
 #include "core/dynamics/contact/event/features/round_surface.h"
 #include "core/dynamics/contact/event/persistent/persistent_contact.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
@@ -71,4 +71,4 @@ double PersistentContact::longest_turn(BodyColumns state) const {
   return kTurn / fastest;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 // a·M b
@@ -39,4 +39,4 @@ double limit_energy(const System& system, BodyColumns pose, double most, const s
   return share;
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -8,7 +8,7 @@
 #include "core/dynamics/joints/joints.h"
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 // V·M V, twice the kinetic energy [J], of velocities (v, w) by body.
 double twice_energy_of(const System& system, BodyColumns pose, const std::vector<Vec6>& velocities);
@@ -18,4 +18,4 @@ double twice_energy_of(const System& system, BodyColumns pose, const std::vector
 double limit_energy(const System& system, BodyColumns pose, double most, const std::vector<Vec6>& without,
                     std::vector<Vec6>& with);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

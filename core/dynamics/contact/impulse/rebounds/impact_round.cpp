@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr int kMostSweeps = 200;
@@ -131,4 +131,4 @@ void solve_round(std::vector<Impact>& impacts, std::vector<BodyTwist>& motions) 
   if (Work{impacts, none, none, velocities}(1) > kNoEnergy * exchanged) take_back(impacts, motions);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -9,7 +9,7 @@
 #include "core/base/math.h"
 #include "core/dynamics/contact/impulse/coulomb_disc.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 struct BodyTwist {
   Vec3 v = Vec3::Zero(), w = Vec3::Zero();  // in W
@@ -44,4 +44,4 @@ void prepare(Impact& impact);
 // Changes the motions, by body, and sets the impulses.
 void solve_round(std::vector<Impact>& impacts, std::vector<BodyTwist>& motions);
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -1,6 +1,6 @@
 #include "core/dynamics/contact/impulse/rebounds/impact_search.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 void ImpactSearch::begin(const ContactRowLayout& rows) {
   for (std::size_t thread = 0; thread < parts_.size(); ++thread) {
@@ -38,4 +38,4 @@ void ImpactSearch::give(const ContactRowLayout& rows, RowSweeps& impacts) const 
   impacts.form_groups();
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -5,7 +5,7 @@
 
 #include "core/dynamics/contact/impulse/row_sweeps.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class ImpactSearch {
  public:
@@ -27,4 +27,4 @@ class ImpactSearch {
   std::vector<Part> parts_;  // by thread
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

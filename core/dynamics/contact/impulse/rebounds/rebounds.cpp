@@ -6,7 +6,7 @@
 
 #include "core/dynamics/contact/impulse/contact_row_layout.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -251,4 +251,4 @@ void Rebounds::resolve(const std::vector<RowGroup>& groups, const SolverParamete
   update_biases(parameters);
 }
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics

@@ -14,7 +14,7 @@
 #include "core/dynamics/kernels/contact_rows.h"
 #include "core/dynamics/model/system.h"
 
-namespace rigor {
+namespace rigor::inline dynamics {
 
 class Rebounds {
  public:
@@ -87,4 +87,4 @@ class Rebounds {
   BodyColumns state_;  // that of resolve(), while it runs
 };
 
-}  // namespace rigor
+}  // namespace rigor::inline dynamics
