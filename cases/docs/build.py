@@ -75,7 +75,9 @@ def rewritten(text, page, places):
 
 
 def documented(text):
-    """A header's comments in the form that Doxygen reads: // becomes ///, and ///< behind code. Deduction guides go."""
+    """A header's comments in the form that Doxygen reads: // becomes ///, and ///< behind code. Deduction guides go.
+    So do the rooms' inline namespaces: users say rigor::Scene, and Doxygen would find rigor::scene in each header."""
+    text = re.sub(r"namespace rigor::inline \w+", "namespace rigor", text)
     text = re.sub(r"template <[^>]*>\n\w+\([^)]*\) -> [^;]*;\n", "", text)
     if text.startswith("/*"):  # a header for C
         text = re.sub(r"^(\s*)/\* ", r"\1/** ", text, flags=re.MULTILINE).replace("; /* ", "; /**< ")
