@@ -79,8 +79,8 @@ AxisSeries::AxisSeries(const std::vector<SeriesAxis>& axes, const BodyPose& a, c
 void AxisSeries::find_angles(const Mat3& turn, std::array<double, kMostSeriesAxes>& x, double& sine) const {
   const auto axis = [&](std::size_t n) -> const Vec3& { return axes_[hinges_[n]].axis; };
   if (hinges_.size() == 1) {
-    const Vec3& across = across_hinge_[0];
-    x[hinges_[0]] = angle_about(axis(0), across, turn * across);
+    // As a mean over all directions across the axis (core/dynamics/model/hinge_angle.h).
+    x[hinges_[0]] = portable::atan2(2 * axis(0).dot(sines_of(turn)), turn.trace() - axis(0).dot(turn * axis(0)));
   } else if (hinges_.size() == 2) {
     x[hinges_[0]] = angle_about(axis(0), axis(1), turn * axis(1));
     x[hinges_[1]] = -angle_about(axis(1), axis(0), turn.transpose() * axis(0));

@@ -174,4 +174,28 @@ BOOST_AUTO_TEST_CASE(repeated_axes_are_named) {
   BOOST_TEST(!why_no_series({}).empty());
 }
 
+// At the stages of a step the axes of both bodies lie slightly apart. The coordinates must not depend on how the whole
+// scene is turned.
+BOOST_AUTO_TEST_CASE(coordinates_of_an_open_chain_do_not_depend_on_the_axes_of_the_world) {
+  const Eigen::AngleAxisd opened(0.05, Vec3(1, -3, 2).normalized());
+  for (const auto& axes : chains()) {
+    const Chain chain = chain_of(axes);
+    const auto coordinates = [&](const Mat3& turn) {
+      std::vector<SeriesAxis> turned = axes;
+      for (SeriesAxis& axis : turned) axis.axis = turn * axis.axis, axis.anchor = turn * axis.anchor;
+      const auto pose = [&](const Eigen::Isometry3d& from) { return Eigen::Isometry3d(turn * from); };
+      const AxisSeries series(turned, body_pose(Eigen::Isometry3d::Identity()), body_pose(pose(chain.b_start)));
+      const Eigen::Isometry3d now = pose(chain.a(0).inverse() * chain.b(0.6)) * opened;
+      const AxisSeries::Rows rows =
+          series.at(end_of(Eigen::Isometry3d::Identity(), Vec6d::Zero()), end_of(now, Vec6d::Zero()));
+      std::vector<double> found;
+      for (std::size_t i = 0; i < axes.size(); ++i) found.push_back(rows.coordinates[i].gap);
+      return found;
+    };
+    const std::vector<double> plain = coordinates(Mat3::Identity());
+    const std::vector<double> turned = coordinates(Eigen::AngleAxisd(1.9, Vec3(2, 1, 3).normalized()).matrix());
+    for (std::size_t i = 0; i < axes.size(); ++i) BOOST_TEST(std::abs(turned[i] - plain[i]) < 1e-13, i);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
