@@ -1,4 +1,4 @@
-// The cost that Rigor adds to an engine: the seam around each step, the process around each cell, reading a case file,
+// The cost that Rigor adds to an engine: the seam around each step, the process around each cell, a case file's reader,
 // and the truth with and without the cache.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -88,8 +88,7 @@ void time_seam(benchmark::State& state, const std::string& name, const std::stri
       run, sum_of_positions);
 }
 
-// A run alone, and with what may be asked for beside it: hashes of its states, as `rigor repeat --record` has them, or
-// the contact forces of each step.
+// A run alone, with hashes of its states, as `rigor repeat --record` has them, or with the contact forces of each step.
 enum class Beside { nothing, hashes, contacts };
 void time_beside(benchmark::State& state, const std::string& scene_name, int count, const std::string& run,
                  Beside beside) {

@@ -1,8 +1,9 @@
-// Times the benchmarks of the table in ratio_table.h, prints it and writes Google Benchmark's JSON. --all times every
-// engine and method on every scene. --plugin P adds an engine from outside. --lanes plain, AVX2 or AVX-512 makes the
-// core use that instruction set instead of the widest one. --scene-files DIR times nothing: it writes the scenes of
-// `bench/run --wasm` and what the plug-ins reach in them. Accepts Google Benchmark's own arguments; --benchmark_filter
-// replaces the table's selection.
+// Times the benchmarks of the table in ratio_table.h, prints it and writes Google Benchmark's JSON. Options:
+// --all              times every engine and method on every scene.
+// --plugin P         adds an engine from outside.
+// --lanes L          makes the core use the instruction set plain, AVX2 or AVX-512 instead of the widest one.
+// --scene-files DIR  times nothing. It writes the scenes of `bench/run --wasm` and what the plug-ins reach in them.
+// Google Benchmark's own arguments work, too. Its --benchmark_filter replaces the table's selection.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>

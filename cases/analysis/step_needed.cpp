@@ -14,7 +14,7 @@ struct ErrorAtStep {
   double error;  // infinite if the cell failed
 };
 
-// From the coarsest step to the finest.
+// Steps from the coarsest to the finest.
 std::vector<ErrorAtStep> errors_at_steps(const CaseResult& result, std::size_t run, const std::string& metric) {
   std::vector<ErrorAtStep> errors;
   for (const Cell& cell : result.cells) {

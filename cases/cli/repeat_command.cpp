@@ -141,7 +141,7 @@ class RepeatCommand : public Command {
 
   int compare(const std::vector<Case>& cases, const RunName& name, const EngineTable& engines) const {
     const std::vector<HashRecord> records = read_hash_records(against_);
-    // What ran when the hashes were made must run here, too.
+    // A cell that ran when the hashes were made must run here, too.
     const Lacks lacks = [&, engine_lacks = what_lacks(name, engines)](const Case& definition) {
       const bool has_run = std::any_of(records.begin(), records.end(),
                                        [&](const HashRecord& one) { return one.case_id == definition.id; });

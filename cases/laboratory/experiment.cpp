@@ -78,7 +78,7 @@ LiveReading Experiment::read_now() const {
   return reading;
 }
 
-// Where the truth's own error is larger than a centimetre, no error is shown.
+// No error is shown where the truth's own error is larger than a centimetre.
 void Experiment::note_error(std::size_t step, BodyColumns bodies, LiveReading& reading) const {
   constexpr double kMostTruthError = 1e-2;  // m
   if (step >= truth_.rows() || truth_.error(step) > kMostTruthError) return;

@@ -173,7 +173,7 @@ int least_beside(Fit& fit, double step, int best, int most, std::map<int, Misfit
   }
 }
 
-// The best shift over all samples that it and both beside it can be compared at. As it moves away from none, fewer can.
+// The best shift over all samples that it and both beside it can be compared at. Fewer can as it moves away from none.
 int best_over_most_samples(Fit& fit, double step, int best, std::map<int, Misfit>& tried) {
   for (int most = std::min(std::abs(best) + 1, kEitherWay);; ++most) {
     fit.leave_out(most * step);

@@ -25,8 +25,9 @@ constexpr double kMostJointedWork = 0.4e6;                  // likewise in joint
 // s: a method that divides its own steps counts as taking one of them in each; it takes any number.
 constexpr double kInnerStep = 1e-3;
 
-// From one step tried to the next. Springs resonate with a step in narrow bands of it; bodies that touch and have none
-// do not: 333 of 334 searches of the suite found the same at 20 % as at 3 %. Joints without springs are taken likewise.
+// The ratio from one step tried to the next. Springs resonate with a step in narrow bands of it; bodies that touch and
+// have none do not: 333 of 334 searches of the suite found the same at 20 % as at 3 %. Joints without springs are taken
+// likewise.
 double sweep_of(const Scene& scene) {
   const bool is_sprung = !scene.springs.empty() || std::any_of(scene.joints.begin(), scene.joints.end(),
                                                                [](const Joint& joint) { return joint.stiffness != 0; });

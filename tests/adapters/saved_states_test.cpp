@@ -33,7 +33,7 @@ std::unique_ptr<World> loaded(const Run& run, const Scene& scene) {
   }
 }
 
-// What these engines hide shows here, as adapters/README.md says. It was measured; nothing says in advance where.
+// State that these engines hide shows here, as adapters/README.md says. It was measured; nothing says in advance where.
 bool keeps_some_state_hidden(const std::string& id, const Run& run) {
   const bool is_stock = run.settings.track == Track::stock;
   if (id == "mechanisms/ragdoll-on-floor")
@@ -44,7 +44,7 @@ bool keeps_some_state_hidden(const std::string& id, const Run& run) {
 
 }  // namespace
 
-// Of the built-in engines only Simbody and Siconos do not save.
+// Only Simbody and Siconos, of the built-in engines, do not save.
 BOOST_AUTO_TEST_CASE(these_engines_save_their_state) {
   std::set<std::string> saving, all;
   for (const Run& run : all_runs()) {

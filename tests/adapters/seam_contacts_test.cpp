@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_body_dropped_on_another_rests_at_the_right_height) {
         // The largest overlap from the one step before the contact is seen, if the engine does not push the body out
         // again.
         const double deepest = std::sqrt(2 * g * drop) * dt;
-        // As shipped, Bullet puts a margin of 4 cm around each hull.
+        // Bullet, as shipped, puts a margin of 4 cm around each hull.
         constexpr double kHullMargin = 0.04;
         const bool has_margins = run.info.name == "bullet" && run.settings.track == Track::stock;
         const double hulls = std::holds_alternative<Convex>(pair.above) + std::holds_alternative<Convex>(pair.below);
@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(a_pair_that_the_scene_keeps_apart_never_touches) {
       const auto world = run.load(scene);
       const BodyTable state = state_after(*world, dt, std::lround(t / dt));
       const auto position = [&](int body) { return state.columns().position(body); };
-      // As shipped, btMultiBody brakes free motion by (0.04 + 0.04 |v|) v: less than half of v in this second.
+      // btMultiBody, as shipped, brakes free motion by (0.04 + 0.04 |v|) v: less than half of v in this second.
       if (run.name() == "bullet:multibody@stock") {
         BOOST_TEST(position(0).x() > 0.25);
         BOOST_TEST(position(1).x() < -0.25);

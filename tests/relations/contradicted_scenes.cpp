@@ -6,7 +6,7 @@
 namespace rigor::test {
 namespace {
 
-// As in a case file, with the digits that matter.
+// The form of a case file, with the digits that matter.
 Scene read(const std::string& bodies, const char* law) {
   const std::string text = "title = \"x\"\n[scene]\ngravity = [0.0, 0.0, -9.81]\n" + bodies +
                            "[scene.contact_default]\n" + law +

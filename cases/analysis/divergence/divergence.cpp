@@ -114,7 +114,7 @@ DivergenceTruth judged_by_truth(const Case& definition, const Divergence& found,
   return truth;
 }
 
-// Of repeats of both runs, sample by sample.
+// Repeats of both runs, sample by sample.
 std::vector<double> spread_of(const std::vector<StateSeries>& runs, const Scene& scene, Divergence& found) {
   std::vector<double> spread;
   for (const std::size_t first : {0, 2}) {

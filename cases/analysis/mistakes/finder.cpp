@@ -265,7 +265,7 @@ std::vector<Suspect> MistakeFinder::ranked(const Trace& trace, const MistakeTabl
   }
 }
 
-// Where the engine was seen, where not, and beside what.
+// The places where the engine was seen, those where not, and beside what.
 void MistakeFinder::note_sights(const MistakeTable& table, const std::vector<Sight>& moved,
                                 MistakeReport& report) const {
   for (std::size_t v = 0; v < moved.size(); ++v) {

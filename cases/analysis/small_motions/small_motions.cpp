@@ -40,7 +40,7 @@ class VelocityRows {
     add(row, joint.a, -at.force, at.torque_a), add(row, joint.b, at.force, at.torque_b);
     return row;
   }
-  // What joints, couplings and rotors hold at zero.
+  // The rates that joints, couplings and rotors hold at zero.
   std::vector<RateRow> held() const {
     const System system(scene_);
     JointRows joints(scene_, system);

@@ -47,7 +47,7 @@ class McapRecording {
   }
 
  private:
-  // The usual topic counts, if several channels have transforms. What came from another one before is dropped.
+  // The usual topic counts, if several channels have transforms. Anything that came from another one before is dropped.
   void meet(const McapChannel& channel) {
     channels_.push_back(fmt::format("{} ({}, {})", channel.topic, channel.schema, channel.encoding));
     if (channel.schema != kTransforms || channel.encoding != "json") return;

@@ -126,7 +126,7 @@ class PairLaws {
     return {*found, are_alike && !some_are_apart};
   }
 
-  // Of the pairs that touch; without any, of shapes against their like.
+  // The pairs that touch; without any, of shapes against their like.
   ContactLaw most_frequent(const std::vector<ContactPair>& rows) const {
     std::map<decltype(numbers_of(ContactLaw())), std::pair<int, ContactLaw>> count;
     const auto see = [&](const ContactLaw& law) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostDistanceRounds = 256;
 constexpr double kDistanceConverged = 1e-12;  // of the squared distance, or of the shapes' size
-// Of the shapes' size. Within this distance the first algorithm cannot tell a touch from an overlap.
+// A share of the shapes' size. Within this distance the first algorithm cannot tell a touch from an overlap.
 constexpr double kTouch = 1e-9;
 
 // A point of the Minkowski difference a - b, and the two points that it comes from.

@@ -227,7 +227,7 @@ std::string brief_block(const Results& results, const CaseResult& result) {
   return text;
 }
 
-// Which engine and step to take, then the problems found.
+// The engine and step to take, then the problems found.
 std::string answers_text(const Results& results, Detail detail) {
   constexpr std::size_t kMostInBrief = 6;
   std::string text;

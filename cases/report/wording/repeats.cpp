@@ -9,7 +9,7 @@ namespace {
 
 std::string difference_text(const RepeatOutcome& outcome) {
   const BitDifference& difference = *outcome.difference;
-  // Of another process only hashes are known.
+  // Only hashes are known of another process.
   if (difference.column < 0)
     return fmt::format("{} from step {} on", outcome.must_hold ? "DIFFERS" : "processor-dependent", difference.step);
   const std::string head = outcome.must_hold ? "DIFFERS" : "order-dependent";

@@ -1,5 +1,5 @@
-// Where Bullet's result changes when a scene is mirrored, x to -x, which is exact in doubles. Limits of joints do not
-// change it (bullet_joints_test.cpp). Contact points of a box that touches with several corners at once do: Bullet
+// Scenes where Bullet's result changes when they are mirrored, x to -x, which is exact in doubles. Limits of joints do
+// not change it (bullet_joints_test.cpp). Contact points of a box that touches with several corners at once do: Bullet
 // searches for them by turns in one fixed sense, and treats them one after another.
 #include <boost/test/unit_test.hpp>
 #include <cmath>

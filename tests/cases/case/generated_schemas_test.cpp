@@ -1,5 +1,6 @@
 // The JSON Schemas have the words and keys of the tables: metrics, truths, features, shapes, joints and statuses. This
-// test writes each schema as the tables have it. What the tables do not know, such as descriptions, stays as it is.
+// test writes each schema as the tables have it. Texts that the tables do not know, such as descriptions, stay as they
+// are.
 #include <fmt/format.h>
 
 #include <boost/test/unit_test.hpp>
@@ -30,7 +31,7 @@ const std::string kCase = "cases/case/case.schema.json", kFamily = "cases/case/f
 
 Json read(const std::string& schema) { return Json::parse(test::content(kSources + schema)); }
 
-// What fits into a line of 150 characters stands in one; words fill their lines.
+// An object that fits into a line of 150 characters stands in one; words fill their lines.
 std::string as_text(const Json& value, std::size_t indent = 0, std::size_t key = 0) {
   std::vector<std::string> items;
   for (const auto& [name, item] : value.items()) {

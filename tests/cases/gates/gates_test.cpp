@@ -292,7 +292,7 @@ BOOST_AUTO_TEST_CASE(a_gate_that_held_over_a_time_of_reduced_order_says_so) {
   BOOST_TEST(all_gates_hold(fixture.grid));
 }
 
-// A long run is compared until it tells nothing more. What came later does not qualify the answer.
+// A long run is compared until it tells nothing more. Later runs do not qualify the answer.
 BOOST_AUTO_TEST_CASE(each_cell_of_an_order_that_was_not_stepped_by_its_own_method_is_named) {
   GatedGrid run;
   Gate order = gate("position_error");

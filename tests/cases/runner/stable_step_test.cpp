@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(a_largest_stable_step_is_below_every_step_at_which_the_case
   const StableStep none = held_to_cells(found, "1/30 1/100 ", true);
   BOOST_TEST(none.dt == 0.01);
   BOOST_TEST(none.is_floor);
-  // What contradicts nothing stays.
+  // Limits that contradict nothing stay.
   BOOST_TEST(held_to_cells(found, "").dt == 0.125);
   const StableStep finer = held_to_cells({0.03, false, false, ""}, "1/30 1/10 ");
   BOOST_TEST(finer.dt == 0.03);

@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(intervals_hold_the_known_value_as_often_as_they_say) {
     }
     BOOST_TEST_MESSAGE(fmt::format("{}: {} of {} intervals hold {}, mean width {:.3g}, {} with a caveat", row.name,
                                    covered, count, row.value, width, widened));
-    // Two hundred repetitions of 95 % have a standard error of 1.5 %. Of three at least one holds, else the chance was
+    // Two hundred repetitions of 95 % have a standard error of 1.5 %. At least one of three holds, else the chance was
     // one in ten thousand.
     const double share = static_cast<double>(covered) / static_cast<double>(count);
     BOOST_TEST(share >= (count >= 200 ? 0.92 : 0.3), row.name);

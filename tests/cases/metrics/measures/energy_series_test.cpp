@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(a_rise_is_above_the_lowest_before_in_both_readings) {
 }
 
 // A ball by semi-implicit steps between two grounds: v_n = v_(n-1) - g h and x_n = x_(n-1) + h v_n, and at each third
-// step an elastic impact instead of gravity. As read, the energy changes by m v g h / 2. At step 6 the impact changes
+// step an elastic impact instead of gravity. The energy, as read, changes by m v g h / 2. At step 6 the impact changes
 // the velocity by 1.24 g h, so its size does not tell it from gravity. The flight on either side determines each
 // velocity.
 BOOST_AUTO_TEST_CASE(between_impacts_the_energy_of_a_semi_implicit_step_stays) {

@@ -229,7 +229,7 @@ export const warningOf = (cell) =>
   cell?.reduced_order ? `from ${digits(cell.reduced_order.from)} s on stepped ${cell.reduced_order.how}` : "";
 
 // s: when the cell's motion blew up, collapsed or otherwise failed; null if it did not, or not at an instant.
-// Of several trials the verdict is the worst one's, which need not be the trial shown.
+// The verdict of several trials is the worst one's, which need not be the trial shown.
 export function failedAt(cell) {
   if (cell?.trials) return null;
   const { word, time } = cell?.verdict ?? {};

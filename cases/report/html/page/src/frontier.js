@@ -5,7 +5,7 @@ import { isNumber } from "./format.js";
 
 const mostFailed = 0.05; // the share of failed cases up to which a step may be recommended
 
-// Where nothing was timed, the number of steps per simulated second stands for the cost.
+// The number of steps per simulated second stands for the cost where nothing was timed.
 export function curvesOf(results, family) {
   const scope = (results.frontier ?? []).find((s) => s.family === family) ?? results.frontier?.[0];
   const timed = isTimed(results);

@@ -64,7 +64,7 @@ std::vector<Body> motions() {
 
 }  // namespace
 
-// A large level face is a plane. Where the motion grows an error, the first 0.3 s are compared.
+// A large level face is a plane. The first 0.3 s are compared where the motion grows an error.
 BOOST_AUTO_TEST_CASE(on_a_level_face_they_move_as_on_a_plane) {
   const Body plane = floor_at();
   for (const Body& body : motions()) {
