@@ -118,10 +118,15 @@ Scene level_box(unsigned seed) {
 
 const std::vector<SceneRow>& scene_rows() {
   static const std::vector<SceneRow> rows = {
-      {"smooth", smooth_scene},         {"mechanisms", mechanism},
-      {"on a plane", bodies_on_plane},  {"in flight", bodies_in_flight},
-      {"cylinders", cylinder_on_plane}, {"line contacts", line_contact},
-      {"level box", level_box},         {"once contradicted", once_contradicted},
+      {"smooth", smooth_scene},
+      {"mechanisms", mechanism},
+      {"on a plane", bodies_on_plane},
+      {"in flight", bodies_in_flight},
+      {"cylinders", cylinder_on_plane},
+      {"line contacts", line_contact},
+      {"level box", level_box},
+      {"once contradicted", once_contradicted},
+      {"compound joints", compound_mechanism},
   };
   return rows;
 }

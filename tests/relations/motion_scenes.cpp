@@ -41,7 +41,7 @@ Spring any_spring(Random& random, const Scene& scene, int a, int b, bool has_dam
 
 class Mechanism {
  public:
-  explicit Mechanism(unsigned seed) : random_(seed) {}
+  Mechanism(unsigned seed, bool is_compound) : random_(seed), is_compound_(is_compound) {}
 
   Scene scene() {
     scene_.gravity = random_.vector(9);
@@ -59,9 +59,30 @@ class Mechanism {
     const Vec3 base = parent == kWorld ? Vec3::Zero() : scene_.bodies[parent].position, at = base + random_.vector(0.5);
     scene_.bodies.push_back(any_body(random_, self, at));
     if (parent == kWorld && is_free_) return;
-    Joint joint{.a = parent, .b = self, .type = any_type(0.5 * (at + base) + random_.vector(0.1))};
+    const Vec3 anchor = 0.5 * (at + base) + random_.vector(0.1);
+    if (is_compound_ && random_.chance(0.7)) return add_compound(parent, self, anchor);
+    Joint joint{.a = parent, .b = self, .type = any_type(anchor)};
     if (free_axis(joint)) load(joint);
     scene_.joints.push_back(joint);
+  }
+
+  // One to three hinges and up to two sliders in any order, and as near to right angles as hips and roots of robots.
+  void add_compound(int parent, int self, const Vec3& anchor) {
+    const int hinges = 1 + random_.below(3), sliders = random_.below(3);
+    const Mat3 hinged = matrix_of(random_.turn()), slid = matrix_of(random_.turn());
+    std::vector<SeriesAxis> axes;
+    for (int k = 0, turning = 0, sliding = 0; k < hinges + sliders; ++k) {
+      const bool turns = sliding == sliders || (turning < hinges && random_.chance(0.5));
+      const Vec3 along = turns ? hinged.col(turning++) : slid.col(sliding++);
+      axes.push_back({turns, turns ? Vec3(anchor + random_.vector(0.1)) : Vec3(Vec3::Zero()),
+                      (along + random_.vector(0.2)).normalized()});
+    }
+    scene_.joints.push_back({.a = parent, .b = self, .type = CompoundJoint{axes}});
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      Joint axis{.a = parent, .b = self, .type = CompoundAxis{axes, k}};
+      load(axis);
+      scene_.joints.push_back(axis);
+    }
   }
 
   JointType any_type(const Vec3& anchor) {
@@ -153,6 +174,7 @@ class Mechanism {
 
   Random random_;
   Scene scene_;
+  bool is_compound_;
   bool is_free_ = false, has_losses_ = false, is_plain_ = false;
 };
 
@@ -180,6 +202,8 @@ Scene smooth_scene(unsigned seed) {
   return scene;
 }
 
-Scene mechanism(unsigned seed) { return Mechanism(seed).scene(); }
+Scene mechanism(unsigned seed) { return Mechanism(seed, false).scene(); }
+
+Scene compound_mechanism(unsigned seed) { return Mechanism(seed, true).scene(); }
 
 }  // namespace rigor::test

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -68,6 +69,22 @@ void put_in_order(std::vector<Row>& rows, const std::vector<std::size_t>& order)
   for (std::size_t i = 0; i < rows.size(); ++i) rows[order[i]] = before[i];
 }
 
+// The axes of a compound joint stay behind it.
+std::vector<std::size_t> any_order_of_joints(const Scene& scene, Random& random) {
+  std::vector<std::size_t> heads;
+  for (std::size_t k = 0; k < scene.joints.size(); ++k)
+    if (!is_axis_of_compound(scene.joints[k])) heads.push_back(k);
+  const std::vector<std::size_t> places = any_order(heads.size(), random);
+  std::vector<std::size_t> in_turn(heads.size()), order(scene.joints.size());
+  for (std::size_t i = 0; i < heads.size(); ++i) in_turn[places[i]] = heads[i];
+  std::size_t next = 0;
+  for (std::size_t k : in_turn) {
+    order[k] = next++;
+    while (++k < scene.joints.size() && is_axis_of_compound(scene.joints[k])) order[k] = next++;
+  }
+  return order;
+}
+
 // Bodies, springs, joints, couplings, motors and forces in another order, and with other names.
 Made shuffled(const Original& original, Random& random) {
   Related made{.scene = original.scene};
@@ -82,7 +99,7 @@ Made shuffled(const Original& original, Random& random) {
   for (Joint& joint : scene.joints) move(joint.a), move(joint.b);
   for (ContactPair& pair : scene.contact_pairs) move(pair.a), move(pair.b);
   for (TimedForce& force : scene.forces) move(force.body);
-  const std::vector<std::size_t> joints = any_order(scene.joints.size(), random);
+  const std::vector<std::size_t> joints = any_order_of_joints(scene, random);
   put_in_order(scene.joints, joints);
   renumber_joints(scene, [&](int joint) { return static_cast<int>(joints[static_cast<std::size_t>(joint)]); });
   put_in_order(scene.springs, any_order(scene.springs.size(), random));
@@ -199,9 +216,10 @@ Made in_any_units(const Original& original, Random& random) {
 
 double power_of_two(int most, Random& random) { return std::ldexp(1, random.below(2 * most + 1) - most); }
 
+// Masses by a power of four: a factorisation takes their square roots.
 Made in_binary_units(const Original& original, Random& random) {
-  const double length = power_of_two(12, random), time = power_of_two(12, random);
-  return in_units(original.scene, length, time, power_of_two(20, random));
+  const double length = power_of_two(12, random), time = power_of_two(12, random), root = power_of_two(10, random);
+  return in_units(original.scene, length, time, root * root);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/analysis/divergence/rebased_scene.h"
 #include "core/dynamics/model/joint_coordinate.h"
 #include "tests/relations/relations.h"
 
@@ -17,13 +18,26 @@ bool has_load(const Scene& scene, std::size_t joint) {
                      [&](const Motor& motor) { return motor.servo && motor.drives(static_cast<int>(joint)); });
 }
 
-bool can_restart(const Scene& scene) {
-  const bool has_compounds = std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
-    return std::holds_alternative<CompoundJoint>(joint.type);
-  });
-  const bool has_samples = std::any_of(scene.motors.begin(), scene.motors.end(),
-                                       [](const Motor& motor) { return motor.servo && motor.servo->period > 0; });
-  return !has_compounds && !has_samples;
+bool has_compounds(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), is_axis_of_compound);
+}
+
+bool has_samples(const Scene& scene) {
+  return std::any_of(scene.motors.begin(), scene.motors.end(),
+                     [](const Motor& motor) { return motor.servo && motor.servo->period > 0; });
+}
+
+// As `rigor diverge` begins a scene anew.
+std::optional<Scene> rebased_scene(const Scene& scene, const std::vector<BodyTable>& until_then, double t) {
+  JointCoordinates coordinates(scene);
+  std::vector<BodyState> bodies(scene.bodies.size());
+  for (const BodyTable& state : until_then) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = state.columns().body(i);
+    coordinates.follow(bodies);
+    for (std::size_t j = 0; j < scene.joints.size(); ++j)
+      if (has_load(scene, j) && turns(scene.joints[j]) && std::abs(coordinates.values()[j]) > kMostTurn) return {};
+  }
+  return rebased(scene, bodies, coordinates.values(), t);
 }
 
 void set_state(Scene& scene, BodyColumns state) {
@@ -107,20 +121,22 @@ std::optional<Scene> begun_anew(const Scene& scene, const std::vector<BodyTable>
   Scene made = scene;
   set_state(made, until_then.back().columns());
   for (Joint& joint : made.joints) move_joint(joint, scene, made);
-  if (!can_restart(scene) || !shift_coordinates(made, scene, until_then)) return {};
+  if (has_compounds(scene) || !shift_coordinates(made, scene, until_then)) return {};
   return made;
 }
 
 }  // namespace
 
 std::optional<Scene> restarted(const Scene& scene, const std::vector<BodyTable>& until_then, double t) {
+  if (has_samples(scene)) return {};
+  if (has_compounds(scene)) return rebased_scene(scene, until_then, t);
   std::optional<Scene> made = begun_anew(scene, until_then);
   if (made) shift_time(*made, t);
   return made;
 }
 
 std::optional<Scene> reversed(const Scene& scene, const std::vector<BodyTable>& until_then, double t) {
-  if (loses_energy(scene)) return {};
+  if (loses_energy(scene) || has_samples(scene)) return {};
   std::optional<Scene> made = begun_anew(scene, until_then);
   if (!made) return {};
   for (Body& body : made->bodies) body.velocity = -body.velocity, body.angular_velocity = -body.angular_velocity;

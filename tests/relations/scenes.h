@@ -21,6 +21,8 @@ Scene generated_scene(const std::string& row, unsigned seed);
 Scene smooth_scene(unsigned seed);
 // A tree of two to five bodies with every type of joint, springs, dampers, limits, motors, servos and couplings.
 Scene mechanism(unsigned seed);
+// The same with compound joints in most places.
+Scene compound_mechanism(unsigned seed);
 // One to four spheres, boxes and capsules above a tilted plane.
 Scene bodies_on_plane(unsigned seed);
 // Two to four of them without a plane, which fly towards each other.

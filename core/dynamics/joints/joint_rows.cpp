@@ -191,17 +191,31 @@ double JointRows::longest_distance() const {
   return longest;
 }
 
-// A row without a force keeps an angle.
+// A row without a force keeps an angle. The row of a coupling keeps what its first coordinate is, and may have a force
+// all the same: that of a hinge coupled to a slider.
 void JointRows::set_lever(double lever) {
   for (JointRow& joint : joints_) {
-    if (joint.coordinate) joint.lever[joint.rows] = joint.coordinate->turns() ? lever : 1;
+    if (joint.coordinate) joint.keeps_angle[static_cast<std::size_t>(joint.rows)] = joint.coordinate->turns();
     for (int k = 0; k < joint.rows; ++k) {
       double force = 0;
       for (int end = 0; end < joint.ends; ++end)
         for (int c = 0; c < 3; ++c) force = std::max(force, std::abs(joint.J[end][k + c * joint.most_rows]));
-      joint.lever[k] = force > 0 ? 1 : lever;
+      joint.keeps_angle[static_cast<std::size_t>(k)] = joint.coupling ? joint.coupling->turns() : force == 0;
+    }
+    for (int k = 0; k < joint.most_rows; ++k)
+      joint.lever[k] = joint.keeps_angle[static_cast<std::size_t>(k)] ? lever : 1;
+  }
+}
+
+double JointRows::largest_force(const std::vector<Vec6>& multipliers, double lever) const {
+  double largest = 0;
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    for (int row = 0; row < joints_[k].rows_in_use(); ++row) {
+      const double size = std::abs(multipliers[k][row]);
+      largest = std::max(largest, joints_[k].keeps_angle[static_cast<std::size_t>(row)] ? size / lever : size);
     }
   }
+  return largest;
 }
 
 void JointRows::assemble(BlockCholesky& factor) {

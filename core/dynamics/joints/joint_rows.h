@@ -35,6 +35,7 @@ struct JointRow {  // all rows of a joint, or of a coupling
   int end[kMostEnds] = {kWorld, kWorld, kWorld, kWorld};   // the bodies at its ends
   int body[kMostEnds] = {kWorld, kWorld, kWorld, kWorld};  // those of them that can move, or kWorld
   Vec6 lever = Vec6::Ones();                               // of each row: converts its gap to m
+  std::array<bool, kMostRows> keeps_angle = {};            // each row: its gap is an angle, and its multiplier in N m
   double J[kMostEnds][6 * kMostRows] = {};                 // most_rows x 6, column by column
   double Y[kMostEnds][6 * kMostRows] = {};                 // J M⁻¹
   Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();            // zero beyond the rows in use
@@ -73,6 +74,8 @@ class JointRows {
   // m: multiplies gaps that are sines or angles, so that no unit of length decides what is closed. For the rows
   // evaluated last; 1 before the first call.
   void set_lever(double lever);
+  // N: the largest of such multipliers. Those of rows that keep an angle are divided by the lever.
+  double largest_force(const std::vector<Vec6>& multipliers, double lever) const;
   // Fills in S of the rows evaluated last.
   void assemble(BlockCholesky& factor);
   // The gaps alone, at other poses; a coordinate that is driven is to be at its target. The largest |gap| [m], with

@@ -17,7 +17,7 @@ constexpr double kAtRest = 1e-9;      // a slower coordinate, or smaller deviati
 constexpr double kLeaves = 1e-5;      // faster than the velocity from closing a gap of kTouch
 constexpr double kNoFlight = 4e-11;   // a coordinate that would rise no higher off its limit stays there
 constexpr double kNoChange = 1e-9;    // an acceleration that rounding can make
-constexpr double kNoEffort = 1e-9;    // of the largest multiplier: ten thousand times what rounding leaves of one
+constexpr double kNoEffort = 1e-9;    // of the largest force: ten thousand times what rounding leaves of one
 constexpr int kMostChangesEach = 16;  // of a coordinate's mode in the search for which hold
 
 // m or rad. Roundings of a slider's coordinate grow with its limits.
@@ -99,7 +99,7 @@ void JointStops::read_settled() {
 
 // Rows and pushes are among the joints' and the loads' own state.
 void JointStops::archive_state(StateArchive& archive) {
-  archive(effort_tolerance_, settled_at_, now_);
+  archive(no_force_, settled_at_, now_);
   archive.each(stops_, [&](Stop& stop) {
     archive(stop.x, stop.rate, stop.settled_x, stop.settled_rate, stop.acceleration, stop.settled_acceleration,
             stop.effort, stop.at, stop.drive, stop.push, stop.bounce);
@@ -120,6 +120,10 @@ double JointStops::next_switch(double t, double end) const {
 double JointStops::Stop::touched(int side) const { return side > 0 ? x - upper : lower - x; }
 double JointStops::at_rest(const Stop& stop) const { return kAtRest * stop.unit / time_unit_; }
 double JointStops::no_change(const Stop& stop) const { return kNoChange * stop.unit / (time_unit_ * time_unit_); }
+double JointStops::as_effort(const Stop& stop, double force) const {
+  return stop.coordinate.turns() ? force * joints_.size() : force;
+}
+double JointStops::no_effort(const Stop& stop) const { return as_effort(stop, no_force_); }
 bool JointStops::touches(const Stop& stop, int side) const { return stop.touched(side) >= -kTouch * stop.unit; }
 bool JointStops::is_hit(const Stop& stop, int side) const {
   return touches(stop, side) && side * stop.rate > at_rest(stop);
@@ -201,7 +205,7 @@ JointStops::Wrench JointStops::loads_at(BodyColumns state, double t) {
 void JointStops::hold(BodyColumns state, const double* wrench) {
   joints_.hold(state, wrench, Joints::Rows::chosen_anew);
   for (Stop& stop : stops_) stop.effort = joints_.coordinate_effort(stop.joint);
-  effort_tolerance_ = kNoEffort * joints_.largest_multiplier();
+  no_force_ = kNoEffort * joints_.largest_force();
 }
 
 bool JointStops::resolve_impacts(MutableBodyColumns state, double t, double shortest_flight) {
@@ -245,9 +249,9 @@ bool JointStops::find_impulses(MutableBodyColumns state) {
     apply(state);
     after_ = BodyColumns(state);
     joints_.push(joints_.velocity_impulse(state), after_.columns());
-    const double none = kNoEffort * joints_.largest_multiplier();
+    const double none = kNoEffort * joints_.largest_force();
     const auto violated = std::find_if(stops_.begin(), stops_.end(), [&](Stop& stop) {
-      if (stop.at != 0) return stop.at * joints_.coordinate_effort(stop.joint) > none;
+      if (stop.at != 0) return stop.at * joints_.coordinate_effort(stop.joint) > as_effort(stop, none);
       const double rate = stop.coordinate.at(after_.columns()).rate;
       const double rest = at_rest(stop);
       return (touches(stop, 1) && rate > rest) || (touches(stop, -1) && rate < -rest);
@@ -294,12 +298,12 @@ bool JointStops::find_modes(BodyColumns state, const Wrench& wrench) {
 
 bool JointStops::change_if_violated(Stop& stop, BodyColumns state) {
   if (stop.at != 0) {
-    if (stop.at * stop.effort <= 0.5 * effort_tolerance_) return false;
+    if (stop.at * stop.effort <= 0.5 * no_effort(stop)) return false;
     stop.at = 0;
     return true;
   }
   if (stop.drive == Drive::keeping) {
-    if (std::abs(stop.effort) <= stop.motor->most + 0.5 * effort_tolerance_) return false;
+    if (std::abs(stop.effort) <= stop.motor->most + 0.5 * no_effort(stop)) return false;
     stop.drive = Drive::pushing, stop.push = std::copysign(stop.motor->most, stop.effort);
     return true;
   }
@@ -325,8 +329,7 @@ double JointStops::distance_to(std::size_t i, Event event) const {
   if (event == Event::servo)
     return stop.servos ? servo_distance(stop, stop.x, stop.rate, stop.acceleration, now_).value : -1;
   if (event == Event::motor) {
-    if (stop.drive == Drive::keeping && stop.at == 0)
-      return std::abs(stop.effort) - stop.motor->most - effort_tolerance_;
+    if (stop.drive == Drive::keeping && stop.at == 0) return std::abs(stop.effort) - stop.motor->most - no_effort(stop);
     if (stop.drive != Drive::pushing) return -1;
     const double to = *stop.motor->speed - stop.settled_rate;
     // A motor that has its speed and still pushes is saturated. It must first leave that speed.
@@ -335,7 +338,7 @@ double JointStops::distance_to(std::size_t i, Event event) const {
     return std::copysign(1, to) * (stop.rate - *stop.motor->speed);
   }
   const int side = event == Event::upper ? 1 : -1;
-  if (stop.at == side) return side * stop.effort - effort_tolerance_;
+  if (stop.at == side) return side * stop.effort - no_effort(stop);
   if (stop.at != 0) return -1;
   // After a bounce the coordinate must go further than it was before it counts as reaching the limit again.
   const double at_start = side > 0 ? stop.settled_x - stop.upper : stop.lower - stop.settled_x;
@@ -368,9 +371,9 @@ bool JointStops::needs_efforts() const {
 void JointStops::note_efforts(BodyColumns state, double t) { note_efforts(state, wrenches_.over_step(state, t, 0)); }
 
 void JointStops::note_efforts(BodyColumns state, const double* wrench) {
-  const double tolerance = effort_tolerance_;
+  const double no_force = no_force_;
   hold(state, wrench);
-  effort_tolerance_ = tolerance;  // one for a whole step: events are roots against it
+  no_force_ = no_force;  // one for a whole step: events are roots against it
   for (Stop& stop : stops_) {
     if (stop.servos) stop.acceleration = joints_.coordinate_acceleration(stop.joint, state);
   }

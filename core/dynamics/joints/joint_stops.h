@@ -88,6 +88,8 @@ class JointStops {
   };
   double at_rest(const Stop& stop) const;
   double no_change(const Stop& stop) const;
+  double as_effort(const Stop& stop, double force) const;  // N m of a hinge's effort, for a force [N]
+  double no_effort(const Stop& stop) const;
   bool touches(const Stop& stop, int side) const;
   bool is_hit(const Stop& stop, int side) const;
   int hit_side(const Stop& stop) const;
@@ -109,8 +111,8 @@ class JointStops {
   WrenchColumns wrenches_;
   std::vector<Stop> stops_;
   BodyTable before_, after_;
-  double time_unit_ = 1;  // s
-  double effort_tolerance_ = 0;
+  double time_unit_ = 1;             // s
+  double no_force_ = 0;              // N: a smaller effort may be a rounding
   double settled_at_ = 0, now_ = 0;  // s: of the states settled and read last
 };
 

@@ -126,11 +126,7 @@ double Joints::coordinate_effort(std::size_t joint) const {
   return at.row == CoordinateRow::none ? 0 : multipliers_[joint][at.rows] + rotor_impulse_[joint];
 }
 
-double Joints::largest_multiplier() const {
-  double largest = 0;
-  for (const Vec6& multiplier : multipliers_) largest = std::max(largest, multiplier.cwiseAbs().maxCoeff());
-  return largest;
-}
+double Joints::largest_force() const { return rows_.largest_force(multipliers_, size_); }
 
 void Joints::factorise(BodyColumns state, Rows rows) {
   rows_.evaluate(state);

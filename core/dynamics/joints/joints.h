@@ -62,8 +62,9 @@ class Joints : public ConstraintForces {
   double coordinate_effort(std::size_t joint) const;
   // After hold(): x'' of a coordinate.
   double coordinate_acceleration(std::size_t joint, BodyColumns state) const;
-  // The largest multiplier of the last solution: what rounding of efforts is measured against.
-  double largest_multiplier() const;
+  // N: the largest multiplier of the last solution, which the rounding of efforts is measured against. A torque counts
+  // divided by size().
+  double largest_force() const;
 
   // Bodies that joints connect make a component; a body without joints is in none, -1.
   int components() const { return factor_.components(); }
