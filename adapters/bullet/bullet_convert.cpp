@@ -42,8 +42,10 @@ struct MakeShape {
   std::unique_ptr<btCollisionShape> operator()(const Cylinder& c) const {
     return std::make_unique<btCylinderShapeZ>(btVector3(c.radius, c.radius, 0.5 * c.length));
   }
-  // Bullet has none: no feature of its contacts names it.
-  std::unique_ptr<btCollisionShape> operator()(const Ellipsoid&) const { return std::make_unique<btEmptyShape>(); }
+  // Bullet has no such shape: no feature of its contacts names it.
+  template <typename Other>
+  requires(!std::is_base_of_v<SurfaceShape, Other>) std::unique_ptr<btCollisionShape>
+  operator()(const Other&) const { return std::make_unique<btEmptyShape>(); }
   // Bullet has height fields of its own; here both are the triangles of the scene. A matched surface has no margin, and
   // its inner edges are known.
   std::unique_ptr<btCollisionShape> operator()(const SurfaceShape& on) const {

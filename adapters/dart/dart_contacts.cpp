@@ -99,13 +99,11 @@ struct MakeShape {
   dyn::ShapePtr operator()(const Plane&) const {
     return std::make_shared<dyn::BoxShape>(Vec3::Constant(2 * kDartPlaneReach));
   }
-  // No feature: nothing that they could touch.
-  dyn::ShapePtr operator()(const Capsule&) const { return nullptr; }
-  dyn::ShapePtr operator()(const Convex&) const { return nullptr; }
-  dyn::ShapePtr operator()(const Cylinder&) const { return nullptr; }
-  dyn::ShapePtr operator()(const Ellipsoid&) const { return nullptr; }
-  dyn::ShapePtr operator()(const SurfaceShape&) const { return nullptr; }
-  dyn::ShapePtr operator()(const Compound&) const { return nullptr; }  // its parts are made
+  // A compound, whose parts are made, and shapes without a feature: nothing that they could touch.
+  template <typename Other>
+  dyn::ShapePtr operator()(const Other&) const {
+    return nullptr;
+  }
 };
 
 // Of a box with its face in the plane, over the point of it next to the origin.

@@ -142,8 +142,11 @@ class Exporter {
       if (surface_in(shape))
         return leave_out(fmt::format("the {} of body '{}'", shape_name(shape), body.name),
                          "MuJoCo takes the convex hull of a mesh, and a height field from a file of its own");
-      add("{:{}}<geom name=\"{}\" {}{}{}/>\n", "", indent, name, mjcf_shape(shape, name),
-          is_placed ? mjcf_pose(pose) : "", touch_of(body));
+      const std::string geom = mjcf_shape(shape, name);
+      if (geom.empty())
+        return leave_out(fmt::format("the {} of body '{}'", shape_name(shape), body.name), "MuJoCo has no such shape");
+      add("{:{}}<geom name=\"{}\" {}{}{}/>\n", "", indent, name, geom, is_placed ? mjcf_pose(pose) : "",
+          touch_of(body));
     });
   }
 

@@ -15,7 +15,11 @@ struct GeomOf {
   std::string operator()(const Capsule& c) const {
     return fmt::format(R"(type="capsule" size="{} {}")", c.radius, c.length / 2);
   }
-  std::string operator()(const Compound&) const { return ""; }  // its parts are written
+  // A compound, whose parts are written, and shapes that no feature names.
+  template <typename Other>
+  std::string operator()(const Other&) const {
+    return "";
+  }
   std::string operator()(const Convex&) const { return fmt::format(R"(type="mesh" mesh="{}")", asset); }
   std::string operator()(const Cylinder& c) const {
     return fmt::format(R"(type="cylinder" size="{} {}")", c.radius, c.length / 2);
@@ -26,7 +30,6 @@ struct GeomOf {
   std::string operator()(const Heightfield& field) const {
     return fmt::format(R"(type="hfield" hfield="{}" pos="0 0 {}")", asset, field.surface->low.z());
   }
-  std::string operator()(const Mesh&) const { return ""; }  // no feature names it
   std::string operator()(const Plane& p) const {
     return fmt::format(R"(type="plane" size="0 0 1" pos="{}" zaxis="{}")", mjcf_text(p.normal * p.offset),
                        mjcf_text(p.normal));

@@ -182,9 +182,10 @@ class Writer {
     if (plane && is_kept_apart(index)) plane->offset -= plane->normal.dot(body.position);  // in the body's frame
     int part = 0;
     for_each_part(whole, [&](const Shape& shape, const BodyPose& pose) {
-      const std::string name = mjcf_geom_name(index, part++);
+      const std::string name = mjcf_geom_name(index, part++), geom = mjcf_shape(shape, name);
+      if (geom.empty()) return;  // nothing that it could touch
       const bool is_placed = std::holds_alternative<Compound>(whole);
-      add(R"(<geom name="{}" {}{} {}/>)", name, mjcf_shape(shape, name), is_placed ? mjcf_pose(pose) : "",
+      add(R"(<geom name="{}" {}{} {}/>)", name, geom, is_placed ? mjcf_pose(pose) : "",
           friction_of(scene_.contact_default, false));
     });
   }

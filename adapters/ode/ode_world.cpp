@@ -43,7 +43,9 @@ struct MakeGeom {
   dSpaceID space;
   OdePolyhedra& polyhedra;
 
-  dGeomID operator()(const Compound&) const { return nullptr; }  // its parts are made
+  // A compound, whose parts are made, and shapes that ODE has not: no feature of its contacts names them.
+  template <typename Other>
+  requires(!std::is_base_of_v<SurfaceShape, Other>) dGeomID operator()(const Other&) const { return nullptr; }
   dGeomID operator()(const Convex& c) const {
     polyhedra.hulls.push_back(std::make_unique<OdeHull>(*c.hull));
     return polyhedra.hulls.back()->add_to(space);
@@ -54,7 +56,6 @@ struct MakeGeom {
     return polyhedra.surfaces.back()->add_to(space);
   }
   dGeomID operator()(const Cylinder& c) const { return dCreateCylinder(space, c.radius, c.length); }
-  dGeomID operator()(const Ellipsoid&) const { return nullptr; }  // ODE has none: no feature of its contacts names it
   dGeomID operator()(const Sphere& s) const { return dCreateSphere(space, s.radius); }
   dGeomID operator()(const Box& b) const { return dCreateBox(space, b.size.x(), b.size.y(), b.size.z()); }
   dGeomID operator()(const Capsule& c) const { return dCreateCapsule(space, c.radius, c.length); }

@@ -86,8 +86,8 @@ class SdfWriter {
     const std::string geometry_of_shape = std::visit(SdfGeometry(), shape);
     if (geometry_of_shape.empty())
       return leave_out(fmt::format("body '{}'", body.name),
-                       surface_in(shape) ? "its " + shape_name(shape) : "its convex hull",
-                       "a mesh of SDF is a file of its own");
+                       std::holds_alternative<Convex>(shape) ? "its convex hull" : "its " + shape_name(shape),
+                       "SDF has none but as a mesh, in a file of its own");
     const double mu = scene_.contact_default.friction;
     const auto* plane = std::get_if<Plane>(&shape);
     std::string pose;

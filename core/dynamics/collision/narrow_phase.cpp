@@ -6,6 +6,7 @@
 
 #include "core/dynamics/collision/curved/collide_curved.h"
 #include "core/dynamics/collision/side_by_side.h"
+#include "core/engine/engine_failure.h"
 
 namespace rigor::inline dynamics {
 namespace {
@@ -176,7 +177,10 @@ struct Collide {
       Exact{b, a, out, far}(second, first);
       reverse(out);
     } else {
-      static_assert(kStandsStill<A> && kStandsStill<B>);  // these never meet
+      // Two that stand still never meet. Of others, no method has the feature (contacts_in_collision).
+      if (!(kStandsStill<A> && kStandsStill<B>))
+        throw EngineFailure(FailureKind::unsupported,
+                            "the core has no contacts of " + shape_name(of_a) + " with " + shape_name(of_b));
     }
   }
 
@@ -211,7 +215,25 @@ struct Collide {
   }
 };
 
+template <typename A, typename... Types>
+void insert_contacts_of(const std::variant<Types...>*, Features& out) {
+  constexpr bool is_exact[] = {kIsExact<A, Types> || kIsExact<Types, A>...};
+  constexpr Feature contacts[] = {contact_feature<A, Types>()...};
+  for (std::size_t k = 0; k < sizeof...(Types); ++k)
+    if (is_exact[k] && can_meet(index_among<A>(static_cast<const Shape*>(nullptr)), static_cast<int>(k)))
+      out.insert(contacts[k]);
+}
+
+template <typename... Types>
+Features contacts_of(const std::variant<Types...>* shapes) {
+  Features contacts;
+  (insert_contacts_of<Types>(shapes, contacts), ...);
+  return contacts;
+}
+
 }  // namespace
+
+Features contacts_in_collision() { return contacts_of(static_cast<const Shape*>(nullptr)); }
 
 bool put_crossing(const ManifoldPoint& crossing, double reach, int first, Manifold& out) {
   ManifoldPoint* nearest = std::min_element(out.begin() + first, out.end(), [&](const auto& one, const auto& other) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/scene/features/feature.h"
 #include "core/scene/scene.h"
 
 namespace rigor::inline dynamics {
@@ -63,6 +64,9 @@ bool put_crossing(const ManifoldPoint& crossing, double reach, int first, Manifo
 // triangles. Shapes further apart than `far` [m] need none either, which spares time.
 void collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Manifold& out,
              double far = std::numeric_limits<double>::infinity());
+
+// The pairs of shapes that it takes.
+Features contacts_in_collision();
 
 // The harder pairs, in files of their own; normals from the second to the first.
 void collide_boxes(const Box& a, const Pose& pose_a, const Box& b, const Pose& pose_b, Manifold& out);

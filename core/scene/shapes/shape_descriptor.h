@@ -5,7 +5,7 @@
 //   centre()           m: the centre of mass of even density
 //   inertia(mass)      kg m², about that centre
 //   bounding_radius()  m, about the origin of the shape's frame
-//   inradius()         m: a motion by less cannot pass through the shape
+//   inradius()         m: of a solid, the largest ball's about the origin; a motion by less cannot pass through it
 //   support(n)         m: a point of the shape that lies furthest along n
 //   drawn()            triangles of its surface
 // Those of a plane, which fills half of space, have no use but inradius() and bounding_radius(): both are infinite.

@@ -317,9 +317,7 @@ const ContactMethod kImpulseContact = {
     .name = "impulse",
     .summary = "velocities corrected in small sub-steps, with warm starting; for piles",
     .features =
-        joined(joined(contacts_among<Box, Capsule, Convex, Cylinder, Ellipsoid, Plane, Sphere>(),
-                      joined(contacts_on<Heightfield, Box, Capsule, Convex, Cylinder, Ellipsoid, Sphere>(),
-                             contacts_on<Mesh, Box, Capsule, Convex, Cylinder, Ellipsoid, Sphere>())),
+        joined(contacts_in_collision(),
                {Feature::placed_shapes, Feature::contact_filter, Feature::friction_coulomb, Feature::friction_infinite,
                 Feature::friction_none, Feature::restitution, Feature::rolling_friction, Feature::torsional_friction,
                 Feature::joints_with_contacts, Feature::joint_limit, Feature::joint_limit_of_compound_slider,

@@ -8,6 +8,7 @@
 #include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/collision/side_by_side.h"
 #include "core/dynamics/contact/event/features/surface_features.h"
+#include "core/engine/engine_failure.h"
 
 namespace rigor::inline dynamics {
 namespace {
@@ -61,6 +62,12 @@ struct SurfacePoint {
   Choices operator()(const SurfaceShape& on) const { return choices_on_surface(*on.surface, at, normal); }
 
   Choices operator()(const Compound&) const { return {{}, {}, {.at = at}}; }  // its part is asked instead
+
+  template <typename Other>
+  requires(!std::is_base_of_v<SurfaceShape, Other>) Choices operator()(const Other&) const {
+    throw EngineFailure(FailureKind::unsupported,
+                        std::string("contact=event knows no features of a ") + Other::descriptor().word);
+  }
 
   Choices operator()(const Convex& convex) const {
     const Hull& hull = *convex.hull;

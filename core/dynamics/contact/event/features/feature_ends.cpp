@@ -22,8 +22,9 @@ struct EndsOf {
   Vec3 q;
   double reach;  // m: how far from an end it matters
 
-  double operator()(const Sphere&) const { return kEndless; }
-  double operator()(const Plane&) const { return kEndless; }
+  // A shape that is smooth, or of which only points are known; a compound's contact lasts to the end of its step.
+  template <typename Other>
+  requires(!std::is_base_of_v<SurfaceShape, Other>) double operator()(const Other&) const { return kEndless; }
 
   double operator()(const Capsule& capsule) const {
     const double half = 0.5 * capsule.length;
@@ -77,9 +78,6 @@ struct EndsOf {
   }
 
   double operator()(const SurfaceShape& on) const { return distance_from_end(*on.surface, own, other, q, reach); }
-
-  double operator()(const Ellipsoid&) const { return kEndless; }
-  double operator()(const Compound&) const { return kEndless; }  // its contact lasts to the end of its step
 
  private:
   bool is_on(const Hull::Edge& edge, const Hull& hull) const {
