@@ -126,7 +126,7 @@ const std::vector<MissingEngine>& missing_engines() {
 const std::vector<EngineOnRequest>& engines_on_request() {
   static const std::vector<EngineOnRequest> named = {
       {"mujoco3", "its formulas are those of mujoco, and each cell starts Node, which takes a second", "mujoco"},
-      {"siconos", "a case with joints takes it some 20 s, and many with contacts its solver does not bring to its law"},
+      {"siconos", "a case with joints takes it some 20 s, and in many with contacts its solver does not converge"},
   };
   return named;
 }

@@ -6,13 +6,17 @@
 
 #include <algorithm>
 
+#include "core/base/sanitizers.h"
+
 namespace rigor::inline adapters {
 
 // Bytes of data: RLIMIT_DATA, for address space alone is reserved by the gigabyte in WebAssembly.
 inline constexpr rlim_t kMostMemory = rlim_t{4} << 30;
 
-// Applies to this process permanently. May be called between fork and exec: only system calls.
+// Applies to this process permanently. May be called between fork and exec: only system calls. A sanitizer's own maps
+// are terabytes, also those of a program that is built like this one.
 inline void limit_memory() {
+  if (kHasAddressSanitizer || kHasThreadSanitizer) return;
   rlimit now{};
   getrlimit(RLIMIT_DATA, &now);
   const rlimit limit{std::min(kMostMemory, now.rlim_max), std::min(kMostMemory, now.rlim_max)};

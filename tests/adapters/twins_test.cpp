@@ -121,7 +121,8 @@ Unexplained unexplained(const RunName& name, const RunName& twin_name, const Sce
   const JudgedRun judged{scene, run.trajectory, nullptr, 0.5, &twin};
   const Measurement error = *test::measured("unexplained_error", judged).measurement,
                     rotation = *test::measured("unexplained_rotation", judged).measurement;
-  const double extent = motion_extents(twin.trajectory)[error.series.size() - 1];
+  // Nothing is compared where the two part at once.
+  const double extent = error.series.empty() ? 0 : motion_extents(twin.trajectory)[error.series.size() - 1];
   return {extent > 0 ? error.value / extent : error.value, rotation.value,
           std::min(error.compared_until, rotation.compared_until)};
 }

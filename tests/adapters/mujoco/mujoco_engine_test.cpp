@@ -52,6 +52,18 @@ BOOST_AUTO_TEST_CASE(a_world_that_mujoco_sets_back_to_its_start_is_lost) {
   BOOST_TEST(world->solver_warning().find("back to its start") != std::string::npos);
 }
 
+// MuJoCo takes the convex hull of a mesh, so none is handed over: a geom without a type would be refused.
+BOOST_AUTO_TEST_CASE(a_mesh_that_nothing_touches_is_left_out) {
+  Scene scene = asymmetric_top();
+  Body ground;
+  ground.name = "ground", ground.fixed = ground.collides = true;
+  ground.shape = Mesh{
+      {closed_surface({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, -1}}, {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}})}};
+  scene.bodies.push_back(ground);
+  const auto world = load_run("mujoco:rk4", scene), alone = load_run("mujoco:rk4", asymmetric_top());
+  BOOST_TEST(angle_between(body_after(*world, 0.01, 50).orientation, body_after(*alone, 0.01, 50).orientation) < 1e-12);
+}
+
 BOOST_AUTO_TEST_CASE(the_implicit_method_damps_a_free_top_and_rk4_does_not) {
   // Measured with MuJoCo 2.2.2: -76.4 % and -3e-6; the digit after it is the test's margin.
   BOOST_TEST(std::abs(energy_gained_by_top("mujoco:implicit") + 0.764) < 1e-3);
