@@ -159,7 +159,7 @@ int serve() {
     const std::string text = answer.dump() + "\n";
     const std::vector<double> columns = worlds.take_columns();
     std::fwrite(text.data(), 1, text.size(), answers);
-    std::fwrite(columns.data(), sizeof(double), columns.size(), answers);
+    if (!columns.empty()) std::fwrite(columns.data(), sizeof(double), columns.size(), answers);
     std::fflush(answers);
   }
   return 0;

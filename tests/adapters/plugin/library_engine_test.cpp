@@ -11,6 +11,7 @@
 #include "adapters/plugin/plugins.h"
 #include "cases/runner/process_pool.h"
 #include "core/base/error.h"
+#include "core/base/sanitizers.h"
 #include "core/engine/engine_failure.h"
 #include "generated/tests/places.h"
 #include "tests/folder.h"
@@ -239,7 +240,10 @@ BOOST_AUTO_TEST_CASE(whatever_it_does_costs_the_cell_in_one_sentence) {
       {"underruns", "^invalid: .*outside its column v|^invalid: .*outside its column qz"},
       {"nan", "^invalid: .*pz of a body is not finite"},
   };
-  for (const auto& [mode, sentence] : rows) BOOST_TEST_CONTEXT(mode) check_sentence(end_of(mode), sentence);
+  for (const auto& [mode, sentence] : rows) {
+    if (mode == "memory" && kHasAddressSanitizer) continue;  // its memory has no limit there
+    BOOST_TEST_CONTEXT(mode) check_sentence(end_of(mode), sentence);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
