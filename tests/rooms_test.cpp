@@ -166,7 +166,7 @@ std::map<std::string, Names> types_in(const std::string& file, std::istream& in)
 }
 
 // The namespace of the files below a folder; of several, that of the longest one. They are inline, so that another room
-// says `Scene` for rigor::scene::Scene, and the compiler refuses a name that two rooms have.
+// says `Scene` for rigor::scene::Scene. Of a name that two rooms have each uses its own, and a third must say which.
 struct RoomNamespace {
   std::string folder, name;
 };

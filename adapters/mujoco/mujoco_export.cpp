@@ -139,12 +139,12 @@ class Exporter {
     int part = 0;
     for_each_part(*body.shape, [&](const Shape& shape, const BodyPose& pose) {
       const std::string name = part_name(body, part++);
-      if (surface_in(shape))
-        return leave_out(fmt::format("the {} of body '{}'", shape_name(shape), body.name),
-                         "MuJoCo takes the convex hull of a mesh, and a height field from a file of its own");
       const std::string geom = mjcf_shape(shape, name);
-      if (geom.empty())
-        return leave_out(fmt::format("the {} of body '{}'", shape_name(shape), body.name), "MuJoCo has no such shape");
+      if (surface_in(shape) || geom.empty())
+        return leave_out(fmt::format("the {} of body '{}'", shape_name(shape), body.name),
+                         surface_in(shape)
+                             ? "MuJoCo takes the convex hull of a mesh, and a height field from a file of its own"
+                             : "MuJoCo has no such shape");
       add("{:{}}<geom name=\"{}\" {}{}{}/>\n", "", indent, name, geom, is_placed ? mjcf_pose(pose) : "",
           touch_of(body));
     });

@@ -43,7 +43,7 @@ struct MakeGeom {
   dSpaceID space;
   OdePolyhedra& polyhedra;
 
-  // A compound, whose parts are made, and shapes that ODE has not: no feature of its contacts names them.
+  // A compound, whose parts are made, and shapes that ODE lacks: no feature of its contacts names them.
   template <typename Other>
   requires(!std::is_base_of_v<SurfaceShape, Other>) dGeomID operator()(const Other&) const { return nullptr; }
   dGeomID operator()(const Convex& c) const {

@@ -13,8 +13,8 @@ namespace rigor::inline adapters {
 // Bytes of data: RLIMIT_DATA, for address space alone is reserved by the gigabyte in WebAssembly.
 inline constexpr rlim_t kMostMemory = rlim_t{4} << 30;
 
-// Applies to this process permanently. May be called between fork and exec: only system calls. A sanitizer's own maps
-// are terabytes, also those of a program that is built like this one.
+// Applies to this process permanently. May be called between fork and exec: only system calls. A build with a
+// sanitizer sets no limit: the sanitizer's own maps count, too, and are terabytes.
 inline void limit_memory() {
   if (kHasAddressSanitizer || kHasThreadSanitizer) return;
   rlimit now{};

@@ -29,7 +29,7 @@ constexpr const char* kShared = "not explained: a rounding decides how an impact
 constexpr const char* kFlat = "a cylinder comes to lie flat, where a rounding decides which points hold it";
 constexpr const char* kNegative = "not explained: sub-steps back in time beside limits, seeds 20047 and 20053";
 
-constexpr const char* kManyFlights = "compound joints have more limits, so more flights are suppressed: seed 124";
+constexpr const char* kManyFlights = "not explained: 1.3 times what flights that are suppressed leave, seed 124";
 constexpr const char* kCoarse = "not explained: a coarse step that a limit divides, seeds 143 and 153";
 
 std::vector<test::Fact> facts_of_impulses() {
@@ -78,13 +78,13 @@ test::MotionSource core(const std::string& name, double rounding, double thresho
 
 BOOST_AUTO_TEST_CASE(every_integrator_keeps_relations_without_contacts) {
   for (const MethodInfo& method : core_info().methods) {
-    test::check(core(method.name, kRounding, 0), "smooth", 15);  // without bits: units choose the pivots of dampers
+    test::check(core(method.name, kRounding, 0), "smooth", 15);  // without bits: not explained, 5e-12 m
     test::MotionSource run = core(method.name, kClosing, kFlights);
     run.keeps_bits = run.tolerance == 0;  // one of 1e-12 is in SI units
     // It closes joints by an impulse before a drift or, where that search fails, by a projection after it.
     run.has_two_ways = method.name == "semi-implicit-euler";
     test::check(run, "mechanisms", 15, kFacts);
-    test::check(run, "compound joints", 8, kFacts);
+    test::check(run, "compound joints", 20, kFacts);
   }
 }
 

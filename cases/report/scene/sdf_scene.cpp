@@ -87,7 +87,7 @@ class SdfWriter {
     if (geometry_of_shape.empty())
       return leave_out(fmt::format("body '{}'", body.name),
                        std::holds_alternative<Convex>(shape) ? "its convex hull" : "its " + shape_name(shape),
-                       "SDF has none but as a mesh, in a file of its own");
+                       "a mesh of SDF is a file of its own");
     const double mu = scene_.contact_default.friction;
     const auto* plane = std::get_if<Plane>(&shape);
     std::string pose;

@@ -194,6 +194,7 @@ double JointRows::longest_distance() const {
 // A row without a force keeps an angle. The row of a coupling keeps what its first coordinate is, and may have a force
 // all the same: that of a hinge coupled to a slider.
 void JointRows::set_lever(double lever) {
+  lever_ = lever;
   for (JointRow& joint : joints_) {
     if (joint.coordinate) joint.keeps_angle[static_cast<std::size_t>(joint.rows)] = joint.coordinate->turns();
     for (int k = 0; k < joint.rows; ++k) {
@@ -202,8 +203,6 @@ void JointRows::set_lever(double lever) {
         for (int c = 0; c < 3; ++c) force = std::max(force, std::abs(joint.J[end][k + c * joint.most_rows]));
       joint.keeps_angle[static_cast<std::size_t>(k)] = joint.coupling ? joint.coupling->turns() : force == 0;
     }
-    for (int k = 0; k < joint.most_rows; ++k)
-      joint.lever[k] = joint.keeps_angle[static_cast<std::size_t>(k)] ? lever : 1;
   }
 }
 
@@ -270,7 +269,7 @@ double JointRows::largest_gap() const {
   double largest = 0;
   for (const JointRow& joint : joints_) {
     for (int k = 0, rows = joint.rows_in_use(); k < rows; ++k) {
-      const double gap = joint.lever[k] * std::abs(joint.gap[k]);
+      const double gap = (joint.keeps_angle[static_cast<std::size_t>(k)] ? lever_ : 1) * std::abs(joint.gap[k]);
       if (!(gap <= largest)) largest = gap;  // true also for NaN
     }
   }

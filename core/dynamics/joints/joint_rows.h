@@ -34,8 +34,7 @@ struct JointRow {  // all rows of a joint, or of a coupling
   int rows = 0, most_rows = 0;  // of the joint alone; room, with its coordinate's if it can have one
   int end[kMostEnds] = {kWorld, kWorld, kWorld, kWorld};   // the bodies at its ends
   int body[kMostEnds] = {kWorld, kWorld, kWorld, kWorld};  // those of them that can move, or kWorld
-  Vec6 lever = Vec6::Ones();                               // of each row: converts its gap to m
-  std::array<bool, kMostRows> keeps_angle = {};            // each row: its gap is an angle, and its multiplier in N m
+  std::array<bool, kMostRows> keeps_angle = {};            // of each row: its gap is in rad, its multiplier in N m
   double J[kMostEnds][6 * kMostRows] = {};                 // most_rows x 6, column by column
   double Y[kMostEnds][6 * kMostRows] = {};                 // J M⁻¹
   Vec6 gap = Vec6::Zero(), bias = Vec6::Zero();            // zero beyond the rows in use
@@ -127,6 +126,7 @@ class JointRows {
   std::vector<EndMotion> elsewhere_;  // the poses of measure_gaps()
   std::vector<SharedBody> shared_;
   Columns wrench_;
+  double lever_ = 1;  // m
 };
 
 // A body's column of wrench columns.
