@@ -165,8 +165,9 @@ std::map<std::string, Names> types_in(const std::string& file, std::istream& in)
   return found;
 }
 
-// The namespace of the files below a folder; of several, that of the longest one. They are inline, so that another room
-// says `Scene` for rigor::scene::Scene. Of a name that two rooms have each uses its own, and a third must say which.
+// The namespace of a file, or of the files below a folder; of several rows, that of the longest one. They are inline,
+// so that another room says `Scene` for rigor::scene::Scene. Of a name that two rooms have each uses its own, and a
+// third must say which.
 struct RoomNamespace {
   std::string folder, name;
 };
@@ -187,6 +188,11 @@ const std::vector<RoomNamespace> kNamespaces = {
     {"cases/analysis/", "rigor::inline analysis"},
     {"cases/report/", "rigor::inline report"},
     {"cases/laboratory/", "rigor::inline laboratory"},
+    // In place of files of other rooms.
+    {"cases/laboratory/wasm/child_in_page.cpp", "rigor::inline adapters"},
+    {"cases/laboratory/wasm/no_cache.cpp", "rigor::inline truth"},
+    {"cases/laboratory/wasm/no_hull.cpp", "rigor::inline scene"},
+    {"cases/laboratory/wasm/scheme_rows.cpp", "rigor::inline adapters"},
     {"cases/cli/", "rigor::inline cli"},
     {"cases/python/", "rigor::python"},
     {"bench/", "rigor::bench"},

@@ -30,7 +30,7 @@ EM_JS(int, rigor_take_columns, (char* into, int bytes), {
   return at < into + bytes ? 0 : 1;
 });
 
-namespace rigor::inline laboratory {
+namespace rigor::inline adapters {
 
 ChildProcess::ChildProcess(std::string command, double limit, int log, std::string name)
     : command_(std::move(command)), name_(std::move(name)), limit_(limit), log_(log) {}
@@ -51,4 +51,4 @@ void ChildProcess::receive(char* into, std::size_t bytes, const std::string& req
 double ChildProcess::cpu_seconds() const { return 0; }
 bool ChildProcess::is_ours() const { return true; }
 
-}  // namespace rigor::inline laboratory
+}  // namespace rigor::inline adapters

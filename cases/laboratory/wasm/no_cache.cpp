@@ -1,7 +1,7 @@
 // In place of cases/truth/solved/solution_cache.cpp: a page has no folder to keep solutions in.
 #include "cases/truth/solved/solution_cache.h"
 
-namespace rigor::inline laboratory {
+namespace rigor::inline truth {
 
 std::string reference_content(const Scene&, double) { return ""; }
 std::string reference_content(const Scene&, double, const std::string&) { return ""; }
@@ -14,4 +14,4 @@ ReferenceSolution kept_or_solved(const std::string&, const std::function<Referen
   return solve();
 }
 
-}  // namespace rigor::inline laboratory
+}  // namespace rigor::inline truth

@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/scene/shapes/hull.h"
 
-namespace rigor::inline laboratory {
+namespace rigor::inline scene {
 
 std::shared_ptr<const Hull> hull_of(const std::vector<Vec3>&) {
   throw InputError("this build has no convex hulls: Qhull's source was not fetched when it was built");
@@ -16,4 +16,4 @@ TriangleMesh Hull::drawn() const { throw std::logic_error("no hulls"); }
 std::shared_ptr<const Hull> scaled_hull(const Hull&, double) { throw std::logic_error("no hulls"); }
 std::shared_ptr<const Hull> mirrored_hull(const Hull&) { throw std::logic_error("no hulls"); }
 
-}  // namespace rigor::inline laboratory
+}  // namespace rigor::inline scene

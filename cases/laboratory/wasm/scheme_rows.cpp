@@ -4,7 +4,7 @@
 #include "adapters/common/engine_row.h"
 #include "adapters/ode/ode_twin.h"
 
-namespace rigor::inline laboratory {
+namespace rigor::inline adapters {
 namespace {
 
 std::unique_ptr<Engine> no_engine() { return nullptr; }
@@ -18,4 +18,4 @@ EngineRow ode_row() {
   return {.make = no_engine, .twins = [] { return std::vector<Integrator>{kOdeTwin}; }};
 }
 
-}  // namespace rigor::inline laboratory
+}  // namespace rigor::inline adapters
