@@ -117,17 +117,22 @@ class Polytope {
       add(corners);
   }
 
+  // Along any direction the shapes can be parted by their supports' distance. The least of all that were tried is the
+  // answer, because the normals of slivers are rounding, and so are their distances from the origin.
   ConvexGap expand() {
+    ConvexGap best{};
+    double least = std::numeric_limits<double>::infinity(), reached = -least;  // m: supports, triangles
     for (int round = 0; round < kMostDistanceRounds; ++round) {
       const Triangle nearest = *std::min_element(triangles_.begin(), triangles_.end(),
                                                  [](const auto& x, const auto& y) { return x.offset < y.offset; });
       const Difference further = pair_.furthest(nearest.normal);
-      if (further.at.dot(nearest.normal) - nearest.offset <= kDistanceConverged * pair_.size() ||
-          round + 1 == kMostDistanceRounds)
-        return answer(nearest);
-      if (!grow(further)) return answer(nearest);
+      const double depth = further.at.dot(nearest.normal);
+      if (depth < least) least = depth, best = answer(nearest, depth);
+      const bool is_sliver = nearest.offset < reached - kTouch * pair_.size();
+      if (least - nearest.offset <= kDistanceConverged * pair_.size() || is_sliver || !grow(further)) break;
+      reached = nearest.offset;
     }
-    return {};
+    return best;
   }
 
  private:
@@ -171,7 +176,7 @@ class Polytope {
     return all;
   }
 
-  ConvexGap answer(const Triangle& triangle) const {
+  ConvexGap answer(const Triangle& triangle, double depth) const {
     const Vec3 foot = triangle.offset * triangle.normal;
     Mat3 corners;
     for (std::size_t k = 0; k < 3; ++k)
@@ -184,7 +189,7 @@ class Polytope {
                      &r = points_[triangle.corners[2]];
     const Vec3 of_a = (1 - s - t) * p.of_a + s * q.of_a + t * r.of_a,
                of_b = (1 - s - t) * p.of_b + s * q.of_b + t * r.of_b;
-    return {-triangle.offset, -triangle.normal, 0.5 * (of_a + of_b)};
+    return {-depth, -triangle.normal, 0.5 * (of_a + of_b)};
   }
 
   const ConvexPair& pair_;
