@@ -211,7 +211,8 @@ class FromCurved {
     offer(uphill(both, start, size_));
   }
 
-  // A climb may have ended at a kink. From there, each pair of smooth parts, and directions around, may lead on.
+  // A climb may have ended at a kink. From there, each pair of smooth parts may lead on. Directions around it cost more.
+  // For overlaps they would help in one of 40,000.
   void climb_on() {
     constexpr int kMostRounds = 3;
     double before = -std::numeric_limits<double>::infinity();
@@ -222,6 +223,7 @@ class FromCurved {
       for (const double side : {1.0, -1.0}) {
         for (const double other_side : {1.0, -1.0})
           offer(uphill(FromSolid{smooth_part(solid_, side), smooth_part(other_, other_side)}, n, size_));
+        if (!(best_.separation > 0)) continue;
         for (const double aside : {1.0, -1.0}) {
           climb_from((n + kAway * std::numbers::sqrt2 / 2 * (side * along.first + aside * along.second)).normalized());
         }
