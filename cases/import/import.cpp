@@ -130,13 +130,8 @@ std::vector<std::string> lines_of(const std::vector<Loss>& losses) {
   return lines;
 }
 
-// The truth 'reference' takes no contacts and no compound joints.
-std::string truth_of_model(const Scene& scene) {
-  const bool has_compound = std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& joint) {
-    return std::holds_alternative<CompoundJoint>(joint.type);
-  });
-  return anything_can_touch(scene) || has_compound ? "none" : "reference";
-}
+// The truth 'reference' takes no contacts.
+std::string truth_of_model(const Scene& scene) { return anything_can_touch(scene) ? "none" : "reference"; }
 
 std::string case_text_of(const Import& import) {
   // JSON's texts are valid in TOML.
@@ -145,7 +140,7 @@ std::string case_text_of(const Import& import) {
   return fmt::format("title = {}\nsource = {}\n\n{}\n[run]\nduration = {}\ndt = [\"{}\"]\n\n[truth]\nkind = \"{}\"{}\n",
                      quoted(import.title), quoted(import.source), scene_toml(import.scene), kModelDuration,
                      fmt::join(kModelSteps, "\", \""), truth,
-                     truth == "none" ? "  # \"reference\" takes no contacts and no compound joints" : "");
+                     truth == "none" ? "  # \"reference\" takes no contacts" : "");
 }
 
 std::string falls_freely(const Scene& scene) {

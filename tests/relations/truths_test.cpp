@@ -11,6 +11,7 @@ BOOST_AUTO_TEST_SUITE(relations_truths)
 BOOST_AUTO_TEST_CASE(the_reference_keeps_relations_within_its_claims) {
   test::check(test::run_of_truth("reference", 0.2, 4), "smooth", 2);
   test::check(test::run_of_truth("reference", 0.2, 4), "mechanisms", 4);
+  test::check(test::run_of_truth("reference", 0.2, 4), "compound joints", 4);
 }
 
 BOOST_AUTO_TEST_CASE(the_truth_by_events_keeps_relations_within_its_claims) {

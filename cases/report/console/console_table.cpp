@@ -274,11 +274,10 @@ std::string truth_sentence(const CaseResult& result) {
     return fmt::format("truth: {}, its own error at most {:.1e} m over the whole {:g} s; it is {}.{}", definition.truth,
                        facts.error_at_end, definition.duration, provenance_of(definition.truth), brackets);
   }
-  return fmt::format(
-      "truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that the motion is too sensitive. It is "
-      "{}.{}",
-      definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration, provenance_of(definition.truth),
-      brackets);
+  return fmt::format("truth: {}, known to {:g} µm until {:.1f} s of the {:g} s; beyond that {}. It is {}.{}",
+                     definition.truth, kHorizonTolerance * 1e6, facts.horizon, definition.duration,
+                     facts.caveat.empty() ? "the motion is too sensitive" : "it is not known",
+                     provenance_of(definition.truth), brackets);
 }
 
 std::vector<std::string> cell_warnings(const Results& results, const CaseResult& result, const StepSize& dt) {

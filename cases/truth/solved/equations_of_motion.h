@@ -1,19 +1,15 @@
-// The equations that the reference solves, for any number type: Newton-Euler under gravity, springs, dampers, timed
-// forces, and springs, dampers and motors along the free axes of joints. jointed_motion.h adds the joints' constraint
-// forces. These equations are written apart from core/dynamics on purpose, so that a mistake there cannot hide in the
-// truth.
+// The equations that the reference solves, for any number type: Newton-Euler under gravity, springs, dampers and timed
+// forces. jointed_motion.h adds what joints do. These equations are written apart from core/dynamics on purpose, so
+// that a mistake there cannot hide in the truth.
 //
 // A moving body has 13 numbers: p_WB, q (w, x, y, z), v_W, and then either w_B or L_W:
 //   body_rates:  I w' = R^T torque - w x I w,   q' = 1/2 q (0, w_B)
 //   momentum:    L' = torque,  w_W = R I^-1 R^T L,   q' = 1/2 (0, w_W) q
-// After those of all bodies stands one of each axis (joint_axis.h): the integral of its rate, for its whole turns. Then
-// come the clock and the held efforts of axis_drive.h, where the scene needs them.
 // (Goldstein, Classical Mechanics, 3rd ed., sections 4.9 and 5.5). R is the rotation of q / |q|.
 #pragma once
 
 #include <vector>
 
-#include "cases/truth/solved/joint_axis.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
@@ -21,16 +17,23 @@ namespace rigor::inline truth {
 
 enum class Formulation { body_rates, momentum };
 
+// The timed forces that act at t [s].
+inline std::vector<const TimedForce*> acting_at(const Scene& scene, double t) {
+  std::vector<const TimedForce*> acting;
+  for (const TimedForce& force : scene.forces) {
+    if (t >= force.from && t < force.until) acting.push_back(&force);
+  }
+  return acting;
+}
+
 template <typename Real>
 class EquationsOfMotion {
  public:
   using State = std::vector<Real>;
   using Vector = Eigen::Matrix<Real, 3, 1>;
   using Matrix = Eigen::Matrix<Real, 3, 3>;
-  using Acting = ActingLoads<Real>;
 
-  EquationsOfMotion(const Scene& scene, Formulation formulation)
-      : scene_(scene), axes_(axes_in_use<Real>(scene)), formulation_(formulation) {
+  EquationsOfMotion(const Scene& scene, Formulation formulation) : scene_(scene), formulation_(formulation) {
     for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
       const Body& body = scene.bodies[i];
       slot_.push_back(body.fixed ? -1 : kNumbersPerBody * static_cast<int>(moving_.size()));
@@ -42,7 +45,7 @@ class EquationsOfMotion {
   }
 
   State start() const {
-    State state(moving_.size() * kNumbersPerBody + axes_.size() + clock_numbers(scene_, axes_.size()));
+    State state(moving_.size() * kNumbersPerBody);
     for (const int i : moving_) {
       const Body& body = scene_.bodies[i];
       Real* s = &state[slot_[i]];
@@ -61,7 +64,7 @@ class EquationsOfMotion {
 
   class Interval;
   // The right-hand side while the timed forces are those that act at t [s].
-  Interval during(double t, const AxisModes& modes = {}) const { return {*this, t, modes}; }
+  Interval during(double t) const { return {*this, t}; }
 
   // The bodies of a state, rounded to double; a fixed body stands where the scene puts it.
   template <typename Number>
@@ -98,10 +101,6 @@ class EquationsOfMotion {
   const Scene& scene() const { return scene_; }
   const std::vector<int>& moving() const { return moving_; }
   int slot(int body) const { return slot_[body]; }  // -1 if fixed
-  const std::vector<JointAxis<Real>>& axes() const { return axes_; }
-  Real turned(const State& state, std::size_t axis) const { return state[moving_.size() * kNumbersPerBody + axis]; }
-  // Where the clock stands, or the state ends.
-  std::size_t clock_place() const { return moving_.size() * kNumbersPerBody + axes_.size(); }
   const Matrix& inverse_inertia(int body) const { return inverse_inertia_[body]; }
 
   static Matrix rotation_of(const Real* q) {
@@ -157,55 +156,18 @@ class EquationsOfMotion {
     b.force -= force, b.torque -= arm_b.cross(force);
   }
 
-  AxisValue<Real> axis_value(std::size_t k, const State& state, const std::vector<Pose>& poses) const {
-    const JointAxis<Real>& axis = axes_[k];
-    const Joint& joint = scene_.joints[axis.joint];
-    const Pose world;
-    const Pose& a = joint.a == kWorld ? world : poses[joint.a];
-    const Pose& b = joint.b == kWorld ? world : poses[joint.b];
-    const Vector n = a.R * axis.direction_a, apart = b.position - a.position;
-    Real rate = n.dot(b.w - a.w);
-    if (!axis.is_hinge) rate = n.dot(b.velocity - a.velocity) + a.w.cross(n).dot(apart);
-    return {axis.coordinate(a.position, a.R, b.position, b.R, turned(state, k)), rate};
-  }
+  using Acting = std::vector<const TimedForce*>;
 
-  // Along the free axis n, fixed in a: a hinge's effort rotates b about it, a slider's effort pushes b's centre along
-  // it, and a gets the opposite. `added`: of servos on sums. Returns the coordinate's rate.
-  Real add_joint_effort(std::size_t k, const AxisDrive<Real>& drive, Real added, const State& state,
-                        std::vector<Pose>& poses) const {
-    const JointAxis<Real>& axis = axes_[k];
-    const Joint& joint = scene_.joints[axis.joint];
-    Pose world;
-    Pose& a = joint.a == kWorld ? world : poses[joint.a];
-    Pose& b = joint.b == kWorld ? world : poses[joint.b];
-    const Vector n = a.R * axis.direction_a, apart = b.position - a.position;
-    const auto [x, rate] = axis_value(k, state, poses);
-    const Real effort = added + drive.effort(x, rate, state.data() + clock_place(), k) -
-                        static_cast<Real>(joint.damping) * rate -
-                        elastic_effort(joint, Real(x - static_cast<Real>(joint.rest)));
-    if (axis.is_hinge) {
-      b.torque += effort * n, a.torque -= effort * n;
-    } else {
-      b.force += effort * n, a.force -= effort * n, a.torque -= effort * apart.cross(n);
-    }
-    return rate;
-  }
-
+  // Numbers of a state behind those of the bodies are not its own.
   void evaluate(const State& state, const Acting& acting, std::vector<Pose>& poses, State& change) const {
     read_poses(state, poses);
     for (const Spring& spring : scene_.springs) add_spring(spring, poses);
-    for (const TimedForce* timed : acting.forces) {
+    for (const TimedForce* timed : acting) {
       Pose& pose = poses[timed->body];
       const Vector force = timed->force.template cast<Real>(), arm = pose.R * timed->point.template cast<Real>();
       pose.force += force, pose.torque += timed->torque.template cast<Real>() + arm.cross(force);
     }
     change.resize(state.size());
-    const std::vector<Real> added = acting.efforts_of_sums(state.data() + clock_place(),
-                                                           [&](std::size_t k) { return axis_value(k, state, poses); });
-    for (std::size_t k = 0; k < axes_.size(); ++k)
-      change[moving_.size() * kNumbersPerBody + k] = add_joint_effort(k, acting.drives[k], added[k], state, poses);
-    std::fill(change.begin() + static_cast<std::ptrdiff_t>(clock_place()), change.end(), Real(0));
-    if (clock_place() < change.size()) change[clock_place()] = 1;
     for (const int i : moving_) change_of_body(i, poses[i], &state[slot_[i]], &change[slot_[i]]);
   }
 
@@ -227,7 +189,6 @@ class EquationsOfMotion {
   }
 
   Scene scene_;
-  std::vector<JointAxis<Real>> axes_;
   Formulation formulation_;
   std::vector<int> moving_;  // body indices
   std::vector<int> slot_;    // of each body: where its numbers begin in the state; -1 if fixed
@@ -237,8 +198,8 @@ class EquationsOfMotion {
 template <typename Real>
 class EquationsOfMotion<Real>::Interval {
  public:
-  Interval(const EquationsOfMotion& motion, double t, const AxisModes& modes)
-      : motion_(&motion), acting_(motion.scene_, motion.axes_, t, modes), poses_(motion.standing_poses()) {}
+  Interval(const EquationsOfMotion& motion, double t)
+      : motion_(&motion), acting_(acting_at(motion.scene_, t)), poses_(motion.standing_poses()) {}
   void operator()(const State& state, State& change, Real) { motion_->evaluate(state, acting_, poses_, change); }
   const std::vector<Pose>& poses() const { return poses_; }  // of the state that was evaluated last
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cases/metrics/measures/joints/joint_geometry.h"
-#include "cases/truth/solved/constraint_rows.h"
+#include "cases/truth/solved/jointed/constraint_rows.h"
 #include "core/dynamics/model/system.h"
 
 namespace rigor::inline metric {

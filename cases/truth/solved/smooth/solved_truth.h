@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "cases/truth/solved/solving.h"
@@ -14,8 +15,8 @@ namespace rigor::inline truth {
 class SolvedTruth final : public Truth {
  public:
   // `motion`: the equations of the solution.
-  SolvedTruth(std::unique_ptr<solving::DoubleMotion> motion, ReferenceSolution solution)
-      : motion_(std::move(motion)), solution_(std::move(solution)) {}
+  SolvedTruth(std::unique_ptr<solving::DoubleMotion> motion, ReferenceSolution solution, std::string caveat = "")
+      : motion_(std::move(motion)), solution_(std::move(solution)), caveat_(std::move(caveat)) {}
 
   void at(double t, MutableBodyColumns out) const override {
     motion_->write(solving::state_at(solution_, *motion_, t).data(), out);
@@ -25,10 +26,12 @@ class SolvedTruth final : public Truth {
     if (next != solution_.error_times.end()) return solution_.errors[next - solution_.error_times.begin()];
     return solution_.complete ? solution_.errors.back() : std::numeric_limits<double>::infinity();
   }
+  std::string caveat() const override { return caveat_; }
 
  private:
   std::unique_ptr<solving::DoubleMotion> motion_;  // for the step from a node
   ReferenceSolution solution_;
+  std::string caveat_;
 };
 
 }  // namespace rigor::inline truth

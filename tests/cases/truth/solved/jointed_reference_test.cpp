@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "cases/truth/solved/jointed_ways.h"
+#include "cases/truth/solved/jointed/jointed_ways.h"
 #include "cases/truth/truth.h"
 #include "tests/core/dynamics/joints/jointed_run.h"
 #include "tests/core/dynamics/joints/published_states.h"

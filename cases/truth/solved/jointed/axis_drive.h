@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "cases/truth/solved/axis_modes.h"
+#include "cases/truth/solved/jointed/axis_modes.h"
 #include "core/scene/scene.h"
 #include "core/scene/turn_window.h"
 

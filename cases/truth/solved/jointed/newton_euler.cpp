@@ -1,5 +1,5 @@
-#include "cases/truth/solved/jointed_motion.h"
-#include "cases/truth/solved/jointed_ways.h"
+#include "cases/truth/solved/jointed/jointed_motion.h"
+#include "cases/truth/solved/jointed/jointed_ways.h"
 
 namespace rigor::inline truth {
 namespace {

@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
-#include "cases/truth/solved/axis_rows.h"
 #include "cases/truth/solved/equations_of_motion.h"
-#include "cases/truth/solved/newton_euler_joints.h"
-#include "cases/truth/solved/transmissions.h"
+#include "cases/truth/solved/jointed/axis_efforts.h"
+#include "cases/truth/solved/jointed/axis_rows.h"
+#include "cases/truth/solved/jointed/newton_euler_joints.h"
 
 namespace rigor::inline truth {
 
@@ -30,16 +30,13 @@ class JointedMotion {
   explicit JointedMotion(const Scene& scene) : free_(scene, Formulation::body_rates) {
     order_.assign(scene.bodies.size(), -1);
     for (std::size_t k = 0; k < free_.moving().size(); ++k) order_[free_.moving()[k]] = static_cast<int>(k);
-    const State state = free_.start();
-    const std::vector<Pose> start = poses_of(state);
-    joints_.emplace(order_);
-    for (const Joint& joint : scene.joints) joints_->add(joint, start);
-    transmissions_.emplace(scene, axes());
-    choice_ = choose_rows<Rows>(rows_at(state, start), inverse_masses(start));
+    const std::vector<Pose> start = poses_of(free_.start());
+    joints_.emplace(scene, order_, start);
+    choice_ = choose_rows<Rows>(rows_at(start_as_read(), start, {}).constraints, inverse_masses(start));
   }
 
   State start() const {
-    State state = free_.start();
+    State state = start_as_read();
     during(0).project(state);
     return state;
   }
@@ -52,14 +49,12 @@ class JointedMotion {
   }
   // The rows in these modes, at a state.
   RowChoice choice_at(const State& state, const AxisModes& modes) const {
+    if (std::none_of(modes.begin(), modes.end(), [](const AxisMode& mode) { return mode.has_row(); })) return choice_;
     const std::vector<Pose> poses = poses_of(state);
-    std::vector<Row> rows = rows_at(state, poses);
-    const std::size_t of_joints = rows.size();
-    add_mode_rows(modes, state, poses, rows);
-    return rows.size() == of_joints ? choice_ : choose_rows<Rows>(rows, inverse_masses(poses));
+    return choose_rows<Rows>(rows_at(state, poses, modes).constraints, inverse_masses(poses));
   }
-  const std::vector<JointAxis<Real>>& axes() const { return free_.axes(); }
-  std::size_t clock_place() const { return free_.clock_place(); }
+  const std::vector<JointAxis<Real>>& axes() const { return joints_->axes(); }
+  std::size_t clock_place() const { return axis_place() + axes().size(); }
   const Scene& scene() const { return free_.scene(); }
 
   template <typename Number>
@@ -71,34 +66,26 @@ class JointedMotion {
   using Block = typename Row::Block;
   using InverseMass = typename Rows::InverseMass;
 
+  State start_as_read() const {
+    State state = free_.start();
+    state.resize(clock_place() + clock_numbers(scene(), axes().size()));
+    return state;
+  }
+
   std::vector<Pose> poses_of(const State& state) const {
     std::vector<Pose> poses = free_.standing_poses();
     free_.read_poses(state, poses);
     return poses;
   }
 
-  std::vector<Row> rows_at(const State& state, const std::vector<Pose>& poses) const {
-    std::vector<Row> rows;
-    joints_->add_rows(poses, rows);
-    transmissions_->add_rows(
-        [&](const JointAxis<Real>& axis, Real turned) {
-          return joints_->axis_row(axis, scene().joints[axis.joint], poses, turned);
-        },
-        [&](std::size_t k) { return axis_row(k, state, poses); }, rows);
+  JointRows<Real, 6> rows_at(const State& state, const std::vector<Pose>& poses, const AxisModes& modes) const {
+    JointRows<Real, 6> rows;
+    joints_->add_rows(poses, &state[axis_place()], rows);
+    add_mode_rows(modes, axes(), scene().joints, rows);
     return rows;
   }
 
-  Row axis_row(std::size_t k, const State& state, const std::vector<Pose>& poses) const {
-    return joints_->axis_row(axes()[k], scene().joints[axes()[k].joint], poses, free_.turned(state, k));
-  }
-
-  void add_mode_rows(const AxisModes& modes, const State& state, const std::vector<Pose>& poses,
-                     std::vector<Row>& rows) const {
-    for (std::size_t k = 0; k < modes.size(); ++k) {
-      if (modes[k].has_row())
-        rows.push_back(kept(axis_row(k, state, poses), modes[k], scene().joints[axes()[k].joint]));
-    }
-  }
+  std::size_t axis_place() const { return Free::kNumbersPerBody * free_.moving().size(); }
 
   std::vector<InverseMass> inverse_masses(const std::vector<Pose>& poses) const {
     std::vector<InverseMass> inverse(free_.moving().size(), InverseMass::Zero());
@@ -129,7 +116,6 @@ class JointedMotion {
   Free free_;
   std::vector<int> order_;  // of each body: its place among those that move; -1 if fixed
   std::optional<NewtonEulerJoints<Real>> joints_;
-  std::optional<Transmissions<Real>> transmissions_;
   RowChoice choice_;  // where the motion begins
 };
 
@@ -139,7 +125,8 @@ class JointedMotion<Real>::Interval {
   Interval(const JointedMotion& motion, double t, AxisModes modes, RowChoice choice)
       : motion_(&motion),
         modes_(std::move(modes)),
-        free_(motion.free_.during(t, modes_)),
+        free_(motion.free_.during(t)),
+        efforts_(motion.scene(), motion.axes(), t, modes_),
         first_choice_(std::move(choice)),
         solver_(first_choice_) {}
 
@@ -149,24 +136,28 @@ class JointedMotion<Real>::Interval {
   void operator()(const State& state, State& change, Real t) {
     free_(state, change, t);
     const std::vector<Pose>& poses = free_.poses();
-    const std::vector<Row> rows = rows_at(state, poses);
+    const JointRows<Real, 6> rows = motion_->rows_at(state, poses, modes_);
     const auto mass = motion_->inverse_masses(poses);
-    if (!solver_.factorise(rows, mass))
+    if (!solver_.factorise(rows.constraints, mass))
       return std::fill(change.begin(), change.end(), std::numeric_limits<Real>::quiet_NaN());
+    const std::vector<Block> efforts =
+        efforts_.on_bodies(rows.axes, motion_->velocities_of(poses), state, motion_->axis_place(), change);
     const auto& moving = motion_->free_.moving();
     accelerations_.resize(moving.size());
     for (const int i : moving) {
+      const int b = motion_->order_[i];
       const Real* c = &change[motion_->free_.slot(i)];
-      accelerations_[motion_->order_[i]] << Free::get(c + 7), poses[i].R * Free::get(c + 10);
+      accelerations_[b] << Free::get(c + 7), poses[i].R * Free::get(c + 10);
+      accelerations_[b] += mass[b] * efforts[b];
     }
-    const auto added =
-        solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(accelerations_) + row.bias); });
+    const auto added = solver_.correction(rows.constraints, mass,
+                                          [&](const Row& row) { return Real(row.rate(accelerations_) + row.bias); });
     for (const int i : moving) {
       Real* c = &change[motion_->free_.slot(i)];
-      const Block& block = added[motion_->order_[i]];
-      accelerations_[motion_->order_[i]] += block;
-      Free::put(c + 7, Free::get(c + 7) + block.template head<3>());
-      Free::put(c + 10, Free::get(c + 10) + poses[i].R.transpose() * block.template tail<3>());
+      Block& acceleration = accelerations_[motion_->order_[i]];
+      acceleration += added[motion_->order_[i]];
+      Free::put(c + 7, acceleration.template head<3>());
+      Free::put(c + 10, poses[i].R.transpose() * acceleration.template tail<3>());
     }
   }
 
@@ -181,23 +172,16 @@ class JointedMotion<Real>::Interval {
   // left them.
   std::vector<AxisMotion<Real>> axes_at(const State& state) const {
     const std::vector<Pose> poses = motion_->poses_of(state);
-    const auto velocities = motion_->velocities_of(poses);
-    return axis_motions<Real>(modes_, motion_->axes().size(), solver_.multipliers(), velocities, accelerations_,
-                              [&](std::size_t k) { return motion_->axis_row(k, state, poses); });
+    return axis_motions(modes_, motion_->rows_at(state, poses, {}).axes, solver_.multipliers(),
+                        motion_->velocities_of(poses), accelerations_);
   }
 
  private:
-  std::vector<Row> rows_at(const State& state, const std::vector<Pose>& poses) const {
-    std::vector<Row> rows = motion_->rows_at(state, poses);
-    motion_->add_mode_rows(modes_, state, poses, rows);
-    return rows;
-  }
-
   // Returns by how much [m, rad; m/s, rad/s] at most.
   std::optional<double> correct(State& state, Residual what) {
     const JointedMotion& m = *motion_;
     const std::vector<Pose> poses = m.poses_of(state);
-    const std::vector<Row> rows = rows_at(state, poses);
+    const std::vector<Row> rows = m.rows_at(state, poses, modes_).constraints;
     const auto mass = m.inverse_masses(poses);
     if (!solver_.factorise(rows, mass)) return std::nullopt;
     const auto velocities = m.velocities_of(poses);
@@ -220,6 +204,7 @@ class JointedMotion<Real>::Interval {
   const JointedMotion* motion_;
   AxisModes modes_;
   typename Free::Interval free_;
+  AxisEfforts<Real> efforts_;
   RowChoice first_choice_;
   Rows solver_;
   std::vector<Block> accelerations_;

@@ -12,8 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "cases/truth/solved/axis_rows.h"
-#include "cases/truth/solved/joint_axis.h"
+#include "cases/truth/solved/jointed/axis_drive.h"
+#include "cases/truth/solved/jointed/axis_rows.h"
+#include "cases/truth/solved/jointed/joint_axis.h"
 
 namespace rigor::inline truth::solving {
 

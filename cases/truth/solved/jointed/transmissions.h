@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "cases/truth/solved/constraint_rows.h"
-#include "cases/truth/solved/joint_axis.h"
+#include "cases/truth/solved/jointed/axis_rows.h"
+#include "cases/truth/solved/jointed/constraint_rows.h"
+#include "cases/truth/solved/jointed/joint_axis.h"
 
 namespace rigor::inline truth {
 
@@ -19,11 +20,7 @@ template <typename Real>
 class Transmissions {
  public:
   Transmissions(const Scene& scene, const std::vector<JointAxis<Real>>& axes) {
-    const auto place = [&](int joint) {
-      std::size_t k = 0;
-      while (axes[k].joint != static_cast<std::size_t>(joint)) ++k;
-      return k;
-    };
+    const auto place = [&](int joint) { return place_of(joint, axes); };
     for (const Coupling& coupling : scene.couplings) {
       Sum& sum = sums_.emplace_back(Sum{place(coupling.joint), {}, static_cast<Real>(coupling.offset)});
       for (const JointTerm& term : coupling.to)
@@ -41,23 +38,24 @@ class Transmissions {
     }
   }
 
-  // `row_of(axis, turned)`: the row of an axis's rate, as of joints. `row_of_use(k)`: that of an axis in use, at its
-  // state.
-  template <typename Row, typename RowOf, typename RowOfUse>
-  void add_rows(const RowOf& row_of, const RowOfUse& row_of_use, std::vector<Row>& rows) const {
+  // `row_of(axis, turned)`: the row of an axis's rate, as of joints.
+  template <int N, typename RowOf>
+  void add_rows(const RowOf& row_of, JointRows<Real, N>& joints) const {
+    using Row = ReferenceRow<Real, N>;
+    std::vector<Row>& rows = joints.constraints;
     for (const Thread& thread : threads_) {
       Row row = row_of(thread.way, Real(0));
       add(-thread.per_radian, row_of(thread.turn, row.gap / thread.per_radian), row);
       rows.push_back(row);
     }
     for (const Sum& sum : sums_) {
-      Row row = row_of_use(sum.x);
-      for (const auto& [y, ratio] : sum.others) add(-ratio, row_of_use(y), row);
+      Row row = joints.axes[sum.x];
+      for (const auto& [y, ratio] : sum.others) add(-ratio, joints.axes[y], row);
       row.gap -= sum.offset;
       rows.push_back(row);
     }
     for (const Rotor& rotor : rotors_) {
-      Row row = row_of_use(rotor.axis);
+      Row row = joints.axes[rotor.axis];
       row.gap = 0, row.compliance = rotor.compliance;
       rows.push_back(row);
     }

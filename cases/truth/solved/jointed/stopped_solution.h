@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "cases/truth/solved/jointed/stops.h"
 #include "cases/truth/solved/solving.h"
-#include "cases/truth/solved/stops.h"
 
 namespace rigor::inline truth::solving {
 

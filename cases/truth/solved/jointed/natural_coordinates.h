@@ -6,7 +6,7 @@
 // with d_i.d_j = 0 or 1 as six constraints per body. A torque t about the centre becomes the forces t x d_i / 2. If E
 // is singular or nearly so (a rod, a plate), the six constraints make the mass regular:
 //   (M + c P^T P) a + J^T lambda = Q - c P^T bias_P.
-// After the numbers of all bodies stands one of each axis, as in equations_of_motion.h.
+// After the numbers of all bodies stand those of the axes (axis_efforts.h).
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 #include <optional>
 #include <utility>
 
-#include "cases/truth/solved/axis_rows.h"
-#include "cases/truth/solved/joint_axis.h"
-#include "cases/truth/solved/natural_joints.h"
-#include "cases/truth/solved/transmissions.h"
+#include "cases/truth/solved/jointed/axis_efforts.h"
+#include "cases/truth/solved/jointed/axis_rows.h"
+#include "cases/truth/solved/jointed/joint_axis.h"
+#include "cases/truth/solved/jointed/natural_joints.h"
 #include "core/base/eigen_of.h"
 #include "core/engine/body_table.h"
 
@@ -35,7 +35,7 @@ class NaturalCoordinates {
   using Block = typename Row::Block;
   using InverseMass = typename Rows::InverseMass;
 
-  explicit NaturalCoordinates(const Scene& scene) : scene_(scene), axes_(axes_in_use<Real>(scene)) {
+  explicit NaturalCoordinates(const Scene& scene) : scene_(scene) {
     for (const Body& body : scene.bodies) {
       order_.push_back(body.fixed ? -1 : static_cast<int>(moving_.size()));
       if (!body.fixed) moving_.push_back(static_cast<int>(order_.size()) - 1);
@@ -44,12 +44,10 @@ class NaturalCoordinates {
       if (!body.fixed) masses_.push_back(constant_inverse_mass(body, second_moment_.back()));
       if (!body.fixed && !is_regular(second_moment_.back())) singular_.push_back(static_cast<int>(order_.size()) - 1);
     }
+    joints_.emplace(scene, order_, frames_of(bodies_at_start()));
     const State state = start_as_read();
     const std::vector<Frame> start = frames_of(state);
-    joints_.emplace(order_);
-    for (const Joint& joint : scene.joints) joints_->add(joint, start);
-    transmissions_.emplace(scene, axes_);
-    choice_ = choose_rows<Rows>(rows_at(state, start), inverse_masses(start));
+    choice_ = choose_rows<Rows>(rows_at(state, start, {}).constraints, inverse_masses(start));
   }
 
   State start() const {
@@ -65,15 +63,13 @@ class NaturalCoordinates {
     return {*this, t, modes, std::move(choice)};
   }
   RowChoice choice_at(const State& state, const AxisModes& modes) const {
+    if (std::none_of(modes.begin(), modes.end(), [](const AxisMode& mode) { return mode.has_row(); })) return choice_;
     const std::vector<Frame> frames = frames_of(state);
-    std::vector<Row> rows = rows_at(state, frames);
-    const std::size_t of_joints = rows.size();
-    add_mode_rows(modes, state, frames, rows);
-    return rows.size() == of_joints ? choice_ : choose_rows<Rows>(rows, inverse_masses(frames));
+    return choose_rows<Rows>(rows_at(state, frames, modes).constraints, inverse_masses(frames));
   }
-  const std::vector<JointAxis<Real>>& axes() const { return axes_; }
+  const std::vector<JointAxis<Real>>& axes() const { return joints_->axes(); }
   const Scene& scene() const { return scene_; }
-  std::size_t clock_place() const { return kNumbersPerBody * moving_.size() + axes_.size(); }
+  std::size_t clock_place() const { return axis_place() + axes().size(); }
 
   template <typename Number>
   void write(const Number* state, MutableBodyColumns out) const {
@@ -95,7 +91,13 @@ class NaturalCoordinates {
   static constexpr int kNumbersPerBody = Frame::kNumbers;
 
   State start_as_read() const {
-    State state(clock_place() + clock_numbers(scene_, axes_.size()));
+    State state = bodies_at_start();
+    state.resize(clock_place() + clock_numbers(scene_, axes().size()));
+    return state;
+  }
+
+  State bodies_at_start() const {
+    State state(axis_place());
     for (const int i : moving_) {
       const Body& body = scene_.bodies[i];
       const Matrix R = body.orientation.template cast<Real>().normalized().toRotationMatrix();
@@ -124,30 +126,15 @@ class NaturalCoordinates {
     return frames;
   }
 
-  std::vector<Row> rows_at(const State& state, const std::vector<Frame>& frames) const {
-    std::vector<Row> rows;
-    for (const int i : moving_) add_own_rows(order_[i], frames[i], rows);
-    joints_->add_rows(frames, rows);
-    transmissions_->add_rows(
-        [&](const JointAxis<Real>& axis, Real turned) {
-          return joints_->axis_row(axis, scene_.joints[axis.joint], frames, turned);
-        },
-        [&](std::size_t k) { return axis_row(k, state, frames); }, rows);
+  JointRows<Real, 12> rows_at(const State& state, const std::vector<Frame>& frames, const AxisModes& modes) const {
+    JointRows<Real, 12> rows;
+    for (const int i : moving_) add_own_rows(order_[i], frames[i], rows.constraints);
+    joints_->add_rows(frames, &state[axis_place()], rows);
+    add_mode_rows(modes, axes(), scene_.joints, rows);
     return rows;
   }
 
-  Real turned(const State& state, std::size_t axis) const { return state[kNumbersPerBody * moving_.size() + axis]; }
-
-  Row axis_row(std::size_t k, const State& state, const std::vector<Frame>& frames) const {
-    return joints_->axis_row(axes_[k], scene_.joints[axes_[k].joint], frames, turned(state, k));
-  }
-
-  void add_mode_rows(const AxisModes& modes, const State& state, const std::vector<Frame>& frames,
-                     std::vector<Row>& rows) const {
-    for (std::size_t k = 0; k < modes.size(); ++k) {
-      if (modes[k].has_row()) rows.push_back(kept(axis_row(k, state, frames), modes[k], scene_.joints[axes_[k].joint]));
-    }
-  }
+  std::size_t axis_place() const { return kNumbersPerBody * moving_.size(); }
 
   // d_i.d_j as of a rotation.
   static void add_own_rows(int body, const Frame& frame, std::vector<Row>& rows) {
@@ -204,8 +191,7 @@ class NaturalCoordinates {
     return inverse;
   }
 
-  // Also into `change`: the rates of the axes.
-  void add_loads(const ActingLoads<Real>& acting, const State& state, std::vector<Frame>& frames, State& change) const {
+  void add_loads(const std::vector<const TimedForce*>& acting, std::vector<Frame>& frames) const {
     for (const int i : moving_) {
       const Real mass = static_cast<Real>(scene_.bodies[i].mass);
       frames[i].push(mass * scene_.gravity.template cast<Real>(), Vector::Zero());
@@ -224,57 +210,18 @@ class NaturalCoordinates {
                  tension = elastic_effort(spring, stretch) + static_cast<Real>(spring.damping) * rate;
       a.push(tension * n, point_a), b.push(-tension * n, point_b);
     }
-    for (const TimedForce* timed : acting.forces) {
+    for (const TimedForce* timed : acting) {
       at(timed->body).push(timed->force.template cast<Real>(), timed->point.template cast<Real>());
       at(timed->body).turn(timed->torque.template cast<Real>());
     }
-    const std::vector<Real> added =
-        acting.efforts_of_sums(state.data() + clock_place(), [&](std::size_t k) { return axis_value(k, state, at); });
-    for (std::size_t k = 0; k < axes_.size(); ++k)
-      change[kNumbersPerBody * moving_.size() + k] = add_effort(k, acting.drives[k], added[k], state, at);
-    if (clock_place() == state.size()) return;
-    change[clock_place()] = 1;
-    for (std::size_t k = 0; k < axes_.size(); ++k) change[clock_place() + 1 + k] = 0;
-  }
-
-  template <typename At>
-  AxisValue<Real> axis_value(std::size_t k, const State& state, const At& at) const {
-    const JointAxis<Real>& axis = axes_[k];
-    const Joint& joint = scene_.joints[axis.joint];
-    const Frame &a = at(joint.a), &b = at(joint.b);
-    const Vector n = a.R * axis.direction_a, there = a.R.transpose() * (b.x - a.x);
-    return {axis.coordinate(a.x, a.R, b.x, b.R, turned(state, k)),
-            axis.is_hinge ? n.dot(b.w() - a.w()) : n.dot(b.dx - a.rate_of(there))};
-  }
-
-  // A slider's effort on a acts where b's centre is, as a point of a. `added`: of servos on sums. Returns the
-  // coordinate's rate.
-  template <typename At>
-  Real add_effort(std::size_t k, const AxisDrive<Real>& drive, Real added, const State& state, const At& at) const {
-    const JointAxis<Real>& axis = axes_[k];
-    const Joint& joint = scene_.joints[axis.joint];
-    Frame &a = at(joint.a), &b = at(joint.b);
-    const Vector n = a.R * axis.direction_a, there = a.R.transpose() * (b.x - a.x);
-    const auto [x, rate] = axis_value(k, state, at);
-    const Real effort = added + drive.effort(x, rate, state.data() + clock_place(), k) -
-                        elastic_effort(joint, Real(x - static_cast<Real>(joint.rest))) -
-                        static_cast<Real>(joint.damping) * rate;
-    if (axis.is_hinge) {
-      b.turn(effort * n), a.turn(-effort * n);
-    } else {
-      b.push(effort * n, Vector::Zero()), a.push(-effort * n, there);
-    }
-    return rate;
   }
 
   Scene scene_;
-  std::vector<JointAxis<Real>> axes_;
   std::vector<int> moving_, order_;    // as in JointedMotion
   std::vector<Matrix> second_moment_;  // E, of all bodies
   std::vector<InverseMass> masses_;    // of the moving bodies, if they are constant
   std::vector<int> singular_;          // bodies of which they are not
   std::optional<NaturalJoints<Real>> joints_;
-  std::optional<Transmissions<Real>> transmissions_;
   RowChoice choice_;
 };
 
@@ -284,27 +231,29 @@ class NaturalCoordinates<Real>::Interval {
   Interval(const NaturalCoordinates& motion, double t, AxisModes modes, RowChoice choice)
       : motion_(&motion),
         modes_(std::move(modes)),
-        acting_(motion.scene_, motion.axes_, t, modes_),
+        acting_(acting_at(motion.scene_, t)),
+        efforts_(motion.scene_, motion.axes(), t, modes_),
         solver_(std::move(choice)) {}
 
   void operator()(const State& state, State& change, Real) {
     change.assign(state.size(), std::numeric_limits<Real>::quiet_NaN());
     std::vector<Frame> frames = motion_->frames_of(state);
-    motion_->add_loads(acting_, state, frames, change);
-    const std::vector<Row> rows = rows_at(state, frames);
+    const JointRows<Real, 12> rows = motion_->rows_at(state, frames, modes_);
     const auto mass = motion_->inverse_masses(frames);
-    if (!solver_.factorise(rows, mass)) return;
+    if (!solver_.factorise(rows.constraints, mass)) return;
+    motion_->add_loads(acting_, frames);
+    std::vector<Block> efforts = efforts_.on_bodies(rows.axes, rates_of(state), state, motion_->axis_place(), change);
     accelerations_.resize(mass.size());
     for (const int i : motion_->moving_) {
       const int b = motion_->order_[i];
-      accelerations_[b].noalias() = mass[b] * frames[i].force;
+      accelerations_[b].noalias() = mass[b] * (frames[i].force + efforts[b]);
     }
     for (const int i : motion_->singular_) {
       const int b = motion_->order_[i];
-      accelerations_[b].noalias() = mass[b] * regularised_load(i, frames[i]);
+      accelerations_[b].noalias() = mass[b] * (regularised_load(i, frames[i]) + efforts[b]);
     }
-    const auto added =
-        solver_.correction(rows, mass, [&](const Row& row) { return Real(row.rate(accelerations_) + row.bias); });
+    const auto added = solver_.correction(rows.constraints, mass,
+                                          [&](const Row& row) { return Real(row.rate(accelerations_) + row.bias); });
     for (std::size_t b = 0; b < mass.size(); ++b) {
       accelerations_[b] += added[b];
       for (int k = 0; k < 12; ++k) {
@@ -320,9 +269,8 @@ class NaturalCoordinates<Real>::Interval {
   }
   bool project_rates(State& state) { return correct(state, Residual::rate).has_value(); }
   std::vector<AxisMotion<Real>> axes_at(const State& state) const {
-    const std::vector<Frame> frames = motion_->frames_of(state);
-    return axis_motions<Real>(modes_, motion_->axes_.size(), solver_.multipliers(), rates_of(state), accelerations_,
-                              [&](std::size_t k) { return motion_->axis_row(k, state, frames); });
+    return axis_motions(modes_, motion_->rows_at(state, motion_->frames_of(state), {}).axes, solver_.multipliers(),
+                        rates_of(state), accelerations_);
   }
 
  private:
@@ -334,12 +282,6 @@ class NaturalCoordinates<Real>::Interval {
     return load;
   }
 
-  std::vector<Row> rows_at(const State& state, const std::vector<Frame>& frames) const {
-    std::vector<Row> rows = motion_->rows_at(state, frames);
-    motion_->add_mode_rows(modes_, state, frames, rows);
-    return rows;
-  }
-
   std::vector<Block> rates_of(const State& state) const {
     std::vector<Block> rates(motion_->moving_.size());
     for (std::size_t b = 0; b < rates.size(); ++b) rates[b] = Eigen::Map<const Block>(&state[kNumbersPerBody * b + 12]);
@@ -348,7 +290,7 @@ class NaturalCoordinates<Real>::Interval {
 
   std::optional<double> correct(State& state, Residual what) {
     const std::vector<Frame> frames = motion_->frames_of(state);
-    const std::vector<Row> rows = rows_at(state, frames);
+    const std::vector<Row> rows = motion_->rows_at(state, frames, modes_).constraints;
     const auto mass = motion_->inverse_masses(frames);
     if (!solver_.factorise(rows, mass)) return std::nullopt;
     const std::vector<Block> rates = rates_of(state);
@@ -364,7 +306,8 @@ class NaturalCoordinates<Real>::Interval {
 
   const NaturalCoordinates* motion_;
   AxisModes modes_;
-  ActingLoads<Real> acting_;
+  std::vector<const TimedForce*> acting_;
+  AxisEfforts<Real> efforts_;
   Rows solver_;
   std::vector<Block> accelerations_;
 };

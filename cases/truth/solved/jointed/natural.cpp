@@ -1,5 +1,5 @@
-#include "cases/truth/solved/jointed_ways.h"
-#include "cases/truth/solved/natural_coordinates.h"
+#include "cases/truth/solved/jointed/jointed_ways.h"
+#include "cases/truth/solved/jointed/natural_coordinates.h"
 
 namespace rigor::inline truth::solving {
 namespace {

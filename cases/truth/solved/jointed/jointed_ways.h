@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "cases/truth/solved/extrapolation.h"
+#include "cases/truth/solved/jointed/stopped_solution.h"
 #include "cases/truth/solved/solving.h"
-#include "cases/truth/solved/stopped_solution.h"
 
 namespace rigor::inline truth::solving {
 

@@ -1,4 +1,4 @@
-#include "cases/truth/solved/constraint_rows.h"
+#include "cases/truth/solved/jointed/constraint_rows.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>

@@ -6,12 +6,16 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
-#include "cases/truth/solved/constraint_rows.h"
-#include "cases/truth/solved/joint_axis.h"
-#include "cases/truth/solved/natural_frame.h"
+#include "cases/truth/solved/jointed/constraint_rows.h"
+#include "cases/truth/solved/jointed/joint_axis.h"
+#include "cases/truth/solved/jointed/natural_frame.h"
+#include "cases/truth/solved/jointed/natural_series.h"
+#include "cases/truth/solved/jointed/transmissions.h"
 #include "core/scene/scene.h"
 
 namespace rigor::inline truth {
@@ -23,40 +27,37 @@ class NaturalJoints {
   using Row = ReferenceRow<Real, 12>;
   using Vector = typename Frame::Vector;
 
-  // `order`: of each body, its place among those that move; -1 if it is fixed.
-  explicit NaturalJoints(std::vector<int> order) : order_(std::move(order)) {}
-
-  // The bodies are as in `start`.
-  void add(const Joint& joint, const std::vector<Frame>& start) {
-    std::visit([&](const auto& type) { add(joint, type, frame(start, joint.a), frame(start, joint.b)); }, joint.type);
-  }
-
-  void add_rows(const std::vector<Frame>& frames, std::vector<Row>& rows) const {
-    for (const SharedPoint& point : points_) add_rows(point, frames, rows);
-    for (const DotProduct& dot : dots_) add_row(dot, frames, rows);
-    for (const DotOffset& offset : offsets_) add_row(offset, frames, rows);
-    for (const Squared& squared : squares_) add_row(squared, frames, rows);
-  }
-
-  // The row of an axis's rate; its gap is the coordinate, which equals `turned` up to less than half a turn.
-  Row axis_row(const JointAxis<Real>& axis, const Joint& joint, const std::vector<Frame>& frames, Real turned) const {
-    const Frame &a = frame(frames, joint.a), &b = frame(frames, joint.b);
-    if (!axis.is_hinge) {
-      std::vector<Row> rows;
-      add_row(DotOffset{joint.a, joint.b, axis.direction_a, Vector::Zero(), axis.way_start}, frames, rows);
-      return rows.front();
+  // `order`: of each body, its place among those that move; -1 if it is fixed. The bodies are as in `start`.
+  NaturalJoints(const Scene& scene, std::vector<int> order, const std::vector<Frame>& start)
+      : axes_(axes_in_use<Real>(scene)), order_(std::move(order)) {
+    for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+      const Joint& joint = scene.joints[k];
+      const Frame &a = frame(start, joint.a), &b = frame(start, joint.b);
+      if (const auto* compound = std::get_if<CompoundJoint>(&joint.type))
+        series_.push_back({joint.a,
+                           joint.b,
+                           place_of(static_cast<int>(k) + 1, axes_),
+                           {compound->axes, a, b, series_length(joint, scene.bodies)}});
+      else
+        std::visit([&](const auto& type) { add(joint, type, a, b); }, joint.type);
     }
-    const Vector n = a.R * axis.direction_a;
-    Row row;
-    const auto turn = [&](int end, int body, const Frame& of, const Vector& by) {
-      if (body == kWorld || order_[body] < 0) return;
-      row.body[end] = order_[body];
-      for (int i = 0; i < 3; ++i) row.block[end].template segment<3>(3 + 3 * i) = by.cross(Vector(of.R.col(i))) / 2;
-    };
-    turn(0, joint.a, a, -n), turn(1, joint.b, b, n);
-    row.gap = axis.coordinate(a.x, a.R, b.x, b.R, turned);
-    row.bias = Vector(a.dR * axis.direction_a).dot(b.w() - a.w());
-    return row;
+    transmissions_.emplace(scene, axes_);
+  }
+
+  const std::vector<JointAxis<Real>>& axes() const { return axes_; }
+
+  // Adds the rows of the joints, and of their axes. `turned`: of each axis in use, its coordinate: of a hinge to within
+  // half a turn, of an axis of a compound joint nearly.
+  void add_rows(const std::vector<Frame>& frames, const Real* turned, JointRows<Real, 12>& rows) const {
+    std::vector<Row>& all = rows.constraints;
+    for (const SharedPoint& point : points_) add_rows(point, frames, all);
+    for (const DotProduct& dot : dots_) add_row(dot, frames, all);
+    for (const DotOffset& offset : offsets_) add_row(offset, frames, all);
+    for (const Squared& squared : squares_) add_row(squared, frames, all);
+    for (std::size_t k = 0; k < axes_.size(); ++k)
+      rows.axes.push_back(axes_[k].is_in_series ? Row() : axis_row(axes_[k], frames, turned[k]));
+    for (const Series& series : series_) add_rows(series, frames, turned, rows);
+    transmissions_->add_rows([&](const JointAxis<Real>& axis, Real by) { return axis_row(axis, frames, by); }, rows);
   }
 
  private:
@@ -83,6 +84,33 @@ class NaturalJoints {
   static const Frame& frame(const std::vector<Frame>& frames, int body) {
     static const Frame world;
     return body == kWorld ? world : frames[body];
+  }
+
+  struct Series {
+    int a, b;
+    std::size_t first;  // of its axes, among those in use
+    NaturalSeries<Real> axes;
+  };
+
+  // The row of an axis's rate; its gap is the coordinate, which equals `turned` up to less than half a turn.
+  Row axis_row(const JointAxis<Real>& axis, const std::vector<Frame>& frames, Real turned) const {
+    const Frame &a = frame(frames, axis.a), &b = frame(frames, axis.b);
+    if (!axis.is_hinge) {
+      std::vector<Row> rows;
+      add_row(DotOffset{axis.a, axis.b, axis.direction_a, Vector::Zero(), axis.way_start}, frames, rows);
+      return rows.front();
+    }
+    const Vector n = a.R * axis.direction_a;
+    Row row;
+    const auto turn = [&](int end, int body, const Frame& of, const Vector& by) {
+      if (body == kWorld || order_[body] < 0) return;
+      row.body[end] = order_[body];
+      for (int i = 0; i < 3; ++i) row.block[end].template segment<3>(3 + 3 * i) = by.cross(Vector(of.R.col(i))) / 2;
+    };
+    turn(0, axis.a, a, -n), turn(1, axis.b, b, n);
+    row.gap = axis.coordinate(a.x, a.R, b.x, b.R, turned);
+    row.bias = Vector(a.dR * axis.direction_a).dot(b.w() - a.w());
+    return row;
   }
 
   // A joint that a mask of locked motions describes. Without an anchor a shared point is halfway between the centres.
@@ -115,7 +143,7 @@ class NaturalJoints {
   void add(const Joint& joint, const ScrewJoint& type, const Frame& a, const Frame& b) {
     add(joint, CylindricalJoint{type.anchor, type.axis}, a, b);
   }
-  // The truth refuses them.
+  // Its rows are those of a Series.
   void add(const Joint&, const CompoundJoint&, const Frame&, const Frame&) {}
   void add(const Joint&, const CompoundAxis&, const Frame&, const Frame&) {}
 
@@ -160,6 +188,18 @@ class NaturalJoints {
     for (int i = 0; i < 3; ++i) row.block[end].template segment<3>(3 + 3 * i) = weights[i] * on_axes;
   }
 
+  void add_rows(const Series& series, const std::vector<Frame>& frames, const Real* turned,
+                JointRows<Real, 12>& rows) const {
+    SeriesRows<Row> found = series.axes.at(frame(frames, series.a), frame(frames, series.b), turned + series.first);
+    const auto place = [&](Row& row) {
+      int end = 0;
+      for (const int body : {series.a, series.b}) row.body[end++] = body == kWorld ? -1 : order_[body];
+    };
+    for (Row& row : found.locked) place(row), rows.constraints.push_back(row);
+    for (std::size_t k = 0; k < found.coordinates.size(); ++k)
+      place(found.coordinates[k]), rows.axes[series.first + k] = found.coordinates[k];
+  }
+
   void add_rows(const SharedPoint& point, const std::vector<Frame>& frames, std::vector<Row>& rows) const {
     const Frame &a = frame(frames, point.a), &b = frame(frames, point.b);
     const Vector gap = b.point(point.at_b) - a.point(point.at_a);
@@ -199,11 +239,14 @@ class NaturalJoints {
     row.bias = (b.rate_of(squared.at_b) - a.rate_of(squared.at_a)).squaredNorm();
   }
 
+  std::vector<JointAxis<Real>> axes_;
+  std::optional<Transmissions<Real>> transmissions_;
   std::vector<int> order_;
   std::vector<SharedPoint> points_;
   std::vector<DotProduct> dots_;
   std::vector<DotOffset> offsets_;
   std::vector<Squared> squares_;
+  std::vector<Series> series_;
 };
 
 }  // namespace rigor::inline truth

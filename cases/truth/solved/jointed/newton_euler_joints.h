@@ -11,12 +11,16 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "cases/truth/solved/constraint_rows.h"
 #include "cases/truth/solved/equations_of_motion.h"
+#include "cases/truth/solved/jointed/constraint_rows.h"
+#include "cases/truth/solved/jointed/joint_axis.h"
+#include "cases/truth/solved/jointed/newton_euler_series.h"
+#include "cases/truth/solved/jointed/transmissions.h"
 
 namespace rigor::inline truth {
 
@@ -27,37 +31,37 @@ class NewtonEulerJoints {
   using Vector = typename EquationsOfMotion<Real>::Vector;
   using Row = ReferenceRow<Real, 6>;
 
-  // `order`: of each body, its place among those that move; -1 if it is fixed.
-  explicit NewtonEulerJoints(std::vector<int> order) : order_(std::move(order)) {}
-
-  // The bodies are as in `start`.
-  void add(const Joint& joint, const std::vector<Pose>& start) {
-    std::visit([&](const auto& type) { add(joint, type, pose(start, joint.a), pose(start, joint.b)); }, joint.type);
-  }
-
-  void add_rows(const std::vector<Pose>& poses, std::vector<Row>& rows) const {
-    rows.reserve(3 * points_.size() + angles_.size() + offsets_.size() + distances_.size());
-    for (const SharedPoint& point : points_) add_rows(point, poses, rows);
-    for (const RightAngle& angle : angles_) add_row(angle, poses, rows);
-    for (const Across& offset : offsets_) add_row(offset, poses, rows);
-    for (const Distance& distance : distances_) add_row(distance, poses, rows);
-  }
-
-  // The row of an axis's rate; its gap is the coordinate, which equals `turned` up to less than half a turn.
-  Row axis_row(const JointAxis<Real>& axis, const Joint& joint, const std::vector<Pose>& poses, Real turned) const {
-    const Pose &a = pose(poses, joint.a), &b = pose(poses, joint.b);
-    if (!axis.is_hinge) {
-      std::vector<Row> rows;
-      add_row(Across{joint.a, joint.b, axis.direction_a, Vector::Zero(), axis.way_start}, poses, rows);
-      return rows.front();
+  // `order`: of each body, its place among those that move; -1 if it is fixed. The bodies are as in `start`.
+  NewtonEulerJoints(const Scene& scene, std::vector<int> order, const std::vector<Pose>& start)
+      : axes_(axes_in_use<Real>(scene)), order_(std::move(order)) {
+    for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+      const Joint& joint = scene.joints[k];
+      const Pose &a = pose(start, joint.a), &b = pose(start, joint.b);
+      if (const auto* compound = std::get_if<CompoundJoint>(&joint.type))
+        series_.push_back({joint.a,
+                           joint.b,
+                           place_of(static_cast<int>(k) + 1, axes_),
+                           {compound->axes, a, b, series_length(joint, scene.bodies)}});
+      else
+        std::visit([&](const auto& type) { add(joint, type, a, b); }, joint.type);
     }
-    const Vector n = a.R * axis.direction_a;
-    Row row;
-    set(row, 0, joint.a, Vector::Zero(), -n);
-    set(row, 1, joint.b, Vector::Zero(), n);
-    row.gap = axis.coordinate(a.position, a.R, b.position, b.R, turned);
-    row.bias = a.w.cross(n).dot(b.w);
-    return row;
+    transmissions_.emplace(scene, axes_);
+  }
+
+  const std::vector<JointAxis<Real>>& axes() const { return axes_; }
+
+  // Adds the rows of the joints, and of their axes. `turned`: of each axis in use, its coordinate: of a hinge to within
+  // half a turn, of an axis of a compound joint nearly.
+  void add_rows(const std::vector<Pose>& poses, const Real* turned, JointRows<Real, 6>& rows) const {
+    std::vector<Row>& all = rows.constraints;
+    for (const SharedPoint& point : points_) add_rows(point, poses, all);
+    for (const RightAngle& angle : angles_) add_row(angle, poses, all);
+    for (const Across& offset : offsets_) add_row(offset, poses, all);
+    for (const Distance& distance : distances_) add_row(distance, poses, all);
+    for (std::size_t k = 0; k < axes_.size(); ++k)
+      rows.axes.push_back(axes_[k].is_in_series ? Row() : axis_row(axes_[k], poses, turned[k]));
+    for (const Series& series : series_) add_rows(series, poses, turned, rows);
+    transmissions_->add_rows([&](const JointAxis<Real>& axis, Real by) { return axis_row(axis, poses, by); }, rows);
   }
 
  private:
@@ -80,6 +84,29 @@ class NewtonEulerJoints {
     Vector at_a, at_b;
     Real length;
   };
+
+  struct Series {
+    int a, b;
+    std::size_t first;  // of its axes, among those in use
+    NewtonEulerSeries<Real> axes;
+  };
+
+  // The row of an axis's rate; its gap is the coordinate, which equals `turned` up to less than half a turn.
+  Row axis_row(const JointAxis<Real>& axis, const std::vector<Pose>& poses, Real turned) const {
+    const Pose &a = pose(poses, axis.a), &b = pose(poses, axis.b);
+    if (!axis.is_hinge) {
+      std::vector<Row> rows;
+      add_row(Across{axis.a, axis.b, axis.direction_a, Vector::Zero(), axis.way_start}, poses, rows);
+      return rows.front();
+    }
+    const Vector n = a.R * axis.direction_a;
+    Row row;
+    set(row, 0, axis.a, Vector::Zero(), -n);
+    set(row, 1, axis.b, Vector::Zero(), n);
+    row.gap = axis.coordinate(a.position, a.R, b.position, b.R, turned);
+    row.bias = a.w.cross(n).dot(b.w);
+    return row;
+  }
 
   // A joint that a mask of locked motions describes.
   template <typename Type>
@@ -106,7 +133,7 @@ class NewtonEulerJoints {
   void add(const Joint& joint, const ScrewJoint& type, const Pose& a, const Pose& b) {
     add(joint, CylindricalJoint{type.anchor, type.axis}, a, b);
   }
-  // The truth refuses them.
+  // Its rows are those of a Series.
   void add(const Joint&, const CompoundJoint&, const Pose&, const Pose&) {}
   void add(const Joint&, const CompoundAxis&, const Pose&, const Pose&) {}
 
@@ -150,6 +177,18 @@ class NewtonEulerJoints {
   }
 
   static Vector centripetal(const Pose& body, const Vector& arm) { return body.w.cross(body.w.cross(arm)); }
+
+  void add_rows(const Series& series, const std::vector<Pose>& poses, const Real* turned,
+                JointRows<Real, 6>& rows) const {
+    SeriesRows<Row> found = series.axes.at(pose(poses, series.a), pose(poses, series.b), turned + series.first);
+    const auto place = [&](Row& row) {
+      int end = 0;
+      for (const int body : {series.a, series.b}) row.body[end++] = body == kWorld ? -1 : order_[body];
+    };
+    for (Row& row : found.locked) place(row), rows.constraints.push_back(row);
+    for (std::size_t k = 0; k < found.coordinates.size(); ++k)
+      place(found.coordinates[k]), rows.axes[series.first + k] = found.coordinates[k];
+  }
 
   void add_rows(const SharedPoint& point, const std::vector<Pose>& poses, std::vector<Row>& rows) const {
     const Pose &a = pose(poses, point.a), &b = pose(poses, point.b);
@@ -196,11 +235,14 @@ class NewtonEulerJoints {
     row.bias = rate.dot(rate) + d.dot(centripetal(b, arm_b) - centripetal(a, arm_a));
   }
 
+  std::vector<JointAxis<Real>> axes_;
+  std::optional<Transmissions<Real>> transmissions_;
   std::vector<int> order_;
   std::vector<SharedPoint> points_;
   std::vector<RightAngle> angles_;
   std::vector<Across> offsets_;
   std::vector<Distance> distances_;
+  std::vector<Series> series_;
 };
 
 }  // namespace rigor::inline truth
