@@ -78,6 +78,8 @@ EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double du
   // body counts as hardly moving below 1/30,000 of the speed that the scene has in play.
   constexpr double kHardlyMoves = 1e-9;  // of the energy
   const double of_scene = energy_in_play(scene, duration);
+  constexpr double kStill = 1e-24;  // of the energy: a speed of 1e-12 of the scene's is rounding
+  found.is_still = truth && !(found.kinetic > kStill * of_scene);
   if (!(std::max(found.kinetic, found.change) > kHardlyMoves * of_scene)) found.kinetic = of_scene;
   return found;
 }

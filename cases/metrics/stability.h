@@ -22,6 +22,7 @@ struct EnergyExtremes {
   double kinetic = 0;  // the largest; without a truth, or where it hardly moves (1e-9 of that), the scene's energy in
                        // play (energy_in_play.h)
   double change = 0;   // the largest |E - E0|; 0 without a truth
+  bool is_still = false;  // no body moves in the truth
 };
 EnergyExtremes energy_extremes(const Scene& scene, const Truth* truth, double duration);
 

@@ -226,7 +226,7 @@ std::string text_of(Json value, int indent) {
 std::string message_of_truth(const TruthFacts& facts) {
   return text_of({{"truth",
                    {facts.error_at_end, facts.horizon, facts.largest_kinetic_energy, facts.largest_energy_change,
-                    facts.recordings, facts.caveat}}},
+                    facts.recordings, facts.caveat, facts.is_still}}},
                  -1);
 }
 
@@ -259,7 +259,8 @@ MessageSubject apply_message(CaseResult& result, const std::string& message) {
   if (json.contains("truth")) {
     const Json& facts = json.at("truth");
     result.truth = {number_of(facts.at(0)), number_of(facts.at(1)),        number_of(facts.at(2)),
-                    number_of(facts.at(3)), facts.at(4).get<Recordings>(), facts.at(5).get<std::string>()};
+                    number_of(facts.at(3)), facts.at(4).get<Recordings>(), facts.at(5).get<std::string>(),
+                    facts.at(6).get<bool>()};
     return {Part::truth};
   }
   if (json.contains("spreads")) {

@@ -115,6 +115,7 @@ struct TruthFacts {
   double largest_energy_change = 0;   // J, from its start
   Recordings recordings = {};
   std::string caveat = {};  // see Truth::caveat()
+  bool is_still = false;    // no body moves
 };
 inline constexpr double kHorizonTolerance = 1e-6;  // m and rad
 

@@ -110,6 +110,7 @@ TruthFacts facts_of(const Case& definition, const Truth* truth) {
   TruthFacts facts;
   const EnergyExtremes extremes = energy_extremes(definition.scene, truth, definition.duration);
   facts.largest_kinetic_energy = extremes.kinetic, facts.largest_energy_change = extremes.change;
+  facts.is_still = extremes.is_still;
   if (truth) {
     facts.error_at_end = truth->error(definition.duration);
     facts.horizon = horizon(*truth, kHorizonTolerance, definition.duration);

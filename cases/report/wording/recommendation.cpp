@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ class Recommending {
 
   std::optional<Message> message() {
     if (all_.empty()) return recorded_finding(results_);
+    if (nothing_moves(results_)) return Message{"recommendation", nothing_moves_text(results_)};
     const auto engine = within(Candidates::engines);
     const auto method = within(Candidates::core_methods), reference = within(Candidates::references);
     Message message{"recommendation", ""};
@@ -73,5 +75,15 @@ class Recommending {
 }  // namespace
 
 std::optional<Message> recommendation(const Results& results) { return Recommending(results).message(); }
+
+bool nothing_moves(const Results& results) {
+  const auto is_still = [](const CaseResult& result) { return result.truth && result.truth->is_still; };
+  return !results.cases.empty() && std::all_of(results.cases.begin(), results.cases.end(), is_still);
+}
+
+std::string nothing_moves_text(const Results& results) {
+  return results.cases.size() == 1 ? "Nothing moves in this case, so it tells no step size."
+                                   : "Nothing moves in these cases, so they tell no step size.";
+}
 
 }  // namespace rigor::inline report

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cases/analysis/frontier.h"
+#include "cases/report/wording/recommendation.h"
 #include "cases/report/wording/wording.h"
 
 namespace rigor::inline report {
@@ -101,6 +102,7 @@ class StepFinding {
 }  // namespace
 
 std::optional<Finding> step_finding(const Results& results, const RunNames& names) {
+  if (nothing_moves(results)) return Finding{"step size", nothing_moves_text(results), "", {}};
   return StepFinding(results, names).finding();
 }
 

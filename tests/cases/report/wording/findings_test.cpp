@@ -1,4 +1,5 @@
 #include "cases/report/wording/findings/findings.h"
+#include "cases/report/wording/recommendation.h"
 
 #include <fmt/format.h>
 
@@ -111,6 +112,18 @@ BOOST_AUTO_TEST_CASE(the_largest_step_within_a_millimetre_is_one_that_was_tried)
                                                     {"level", {{0.1, 4e-3, 1}, {0.05, 4e-3, 2}}},
                                                     {"far", {{0.1, 128e-3, 1}, {0.05, 64e-3, 2}}}}));
   BOOST_TEST(has(found, "Largest step within 1 mm: fourth 0.050000 s, first none, level none, far none."), all(found));
+}
+
+BOOST_AUTO_TEST_CASE(a_case_in_which_nothing_moves_recommends_no_step) {
+  Results grid = test::priced_results({{"first", {{0.1, 0, 1}, {0.05, 0, 2}}}});
+  BOOST_TEST(recommendation(grid)->text == "For 1 mm take first at 0.100000 s.");
+  grid.cases[0].truth->is_still = true;
+  BOOST_TEST(recommendation(grid)->text == "Nothing moves in this case, so it tells no step size.");
+  BOOST_TEST(has(findings(grid), "Nothing moves in this case, so it tells no step size."), all(findings(grid)));
+  grid.cases.push_back(grid.cases[0]);
+  BOOST_TEST(recommendation(grid)->text == "Nothing moves in these cases, so they tell no step size.");
+  grid.cases[0].truth->is_still = false;
+  BOOST_TEST(recommendation(grid)->text.starts_with("For 1 mm take first at 0.100000 s"));
 }
 
 // Of issue: a method that blows up in one of two cases must not win, and no tie is broken by the order of a table.
