@@ -88,7 +88,6 @@ BOOST_AUTO_TEST_CASE(every_method_keeps_its_order_on_a_moving_base) {
 
 BOOST_AUTO_TEST_CASE(the_reference_meets_closed_forms_within_its_error) {
   for (const auto& form : kForms) {
-    if (std::string(form.id) == "joints/compound-root") continue;  // it refuses compound joints
     const Scene scene = test::suite_scene(form.id);
     const auto closed = make_truth(form.kind, scene, 5), solved = make_truth("reference", scene, 5);
     BOOST_TEST(solved->error(5) < 1e-9);

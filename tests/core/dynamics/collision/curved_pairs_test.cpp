@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(gaps_and_normals_are_those_of_a_search_over_directions) {
 // Random sizes find what the few shapes above do not: a climb that ends at a kink. The second derivation knows support
 // functions alone, and is good to some 1e-9 of the size.
 BOOST_AUTO_TEST_CASE(gaps_of_random_curved_shapes_are_those_of_their_support_functions) {
-  constexpr int kPairs = 12000, kMostLonger = 1;  // one of 10,000 that overlap does so along a longer way
+  constexpr int kPairs = 12000, kMostLonger = 1;  // one of 7,000 that overlap does so along a longer way
   test::RandomPoses random(3);
   const auto size = [&] { return std::exp(random.between(std::log(0.02), 0)); };  // m
   const auto any_shape = [&]() -> Shape {
