@@ -54,10 +54,28 @@ std::size_t facing_of(const PlacedHull& of, const Vec3& n) {
   return best;
 }
 
+bool has_corner(const Hull::Face& face, int corner) {
+  return std::find(face.corners.begin(), face.corners.end(), corner) != face.corners.end();
+}
+
+// Of the faces at a corner, the one that looks most against n. A sharp corner's faces all look aside, and another face
+// of the hull may look more against n.
+std::size_t facing_at(const PlacedHull& of, int corner, const Vec3& n) {
+  std::size_t best = facing_of(of, n);
+  if (has_corner(of.hull->faces[best], corner)) return best;
+  double least = kFarAway;
+  for (std::size_t f = 0; f < of.normals.size(); ++f) {
+    const double along = of.normals[f].dot(n);
+    if (along < least && has_corner(of.hull->faces[f], corner)) least = along, best = f;
+  }
+  return best;
+}
+
 // The corners of the incident face over the reference face, which looks along `axis.n`.
 const HullPolygon& clipped_face(const PlacedHull& reference, const PlacedHull& incident, const HullAxis& axis) {
   static thread_local HullPolygon polygon, clipped;
-  const Hull::Face& face = incident.hull->faces[facing_of(incident, axis.n)];
+  const int deepest = reference.deepest[PlacedHull::index(axis.a)];
+  const Hull::Face& face = incident.hull->faces[facing_at(incident, deepest, axis.n)];
   polygon.clear();
   for (const int corner : face.corners)
     polygon.push_back({incident.points[PlacedHull::index(corner)], static_cast<std::uint32_t>(corner)});

@@ -80,7 +80,7 @@ class JointedMotion {
 
   JointRows<Real, 6> rows_at(const State& state, const std::vector<Pose>& poses, const AxisModes& modes) const {
     JointRows<Real, 6> rows;
-    joints_->add_rows(poses, &state[axis_place()], rows);
+    joints_->add_rows(poses, state.data() + axis_place(), rows);
     add_mode_rows(modes, axes(), scene().joints, rows);
     return rows;
   }

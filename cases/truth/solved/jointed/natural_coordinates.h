@@ -129,7 +129,7 @@ class NaturalCoordinates {
   JointRows<Real, 12> rows_at(const State& state, const std::vector<Frame>& frames, const AxisModes& modes) const {
     JointRows<Real, 12> rows;
     for (const int i : moving_) add_own_rows(order_[i], frames[i], rows.constraints);
-    joints_->add_rows(frames, &state[axis_place()], rows);
+    joints_->add_rows(frames, state.data() + axis_place(), rows);
     add_mode_rows(modes, axes(), scene_.joints, rows);
     return rows;
   }

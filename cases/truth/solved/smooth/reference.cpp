@@ -46,9 +46,9 @@ std::string cut_at_jump(const Scene& scene, ReferenceSolution& solution) {
       solution.error_times.erase(end, solution.error_times.end());
       solution.complete = false;
       return fmt::format(
-          "At {:.3g} s {} has turned by half a turn, where the angle of its spring jumps; engines that count whole "
-          "turns "
-          "go on in another way than those that do not. With limits less than a turn apart all count them.",
+          "At {:.3g} s {} has turned by half a turn, where the angle of its spring jumps. "
+          "There engines that count whole turns part from those that do not. "
+          "With limits less than a turn apart all count them.",
           static_cast<double>(solution.times[node]), scene.joint_name(axes[k].joint));
     }
   }

@@ -70,9 +70,9 @@ void complete(const ManifoldPoint& crossing, bool is_exact, double size, Manifol
     if ((point.point - crossing.point).norm() < (nearest->point - crossing.point).norm()) nearest = &point;
   }
   if (least <= crossing.gap + kSameGap * size) return;
-  // Along the axis itself only a touch at the very border is missing.
+  // Along the axis itself only a touch at the very border is missing, or all of an overlap along a longer way.
   if (is_exact) {
-    if (crossing.gap > -kTouch * size) out.add(crossing);
+    if (crossing.gap > -kTouch * size || least > 0) out.add(crossing);
     return;
   }
   if ((nearest->point - crossing.point).norm() > kNearlyFlat * size + std::abs(crossing.gap)) return out.add(crossing);

@@ -5,7 +5,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "tests/core/dynamics/collision/random_poses.h"
+#include "tests/core/dynamics/collision/any_shape.h"
 
 using namespace rigor;
 
@@ -20,39 +20,13 @@ double apart_along(const Vec3& n, const Shape& a, const Pose& pose_a, const Shap
   return n.dot(lowest - highest);
 }
 
-class AnyShape {
- public:
-  explicit AnyShape(test::RandomPoses& random) : random_(random) {}
-
-  Shape operator()() {
-    const double kind = random_.between(0, 1);
-    if (kind < 0.3) return Cylinder{size(), 2 * size()};
-    if (kind < 0.5) return Ellipsoid{sizes()};
-    if (kind < 0.7) return Box{sizes()};
-    if (kind < 0.8) return Capsule{size(), size()};
-    std::vector<Vec3> corners;
-    const Vec3 stretch = sizes();
-    for (int k = 0; k < 12; ++k) corners.push_back(stretch.cwiseProduct(random_.vector(1)));
-    return Convex{hull_of(corners)};
-  }
-
- private:
-  double size() { return std::exp(random_.between(std::log(0.02), 0)); }  // m
-  Vec3 sizes() {
-    const double x = size(), y = size();
-    return {x, y, size()};
-  }
-
-  test::RandomPoses& random_;
-};
-
 }  // namespace
 
 // Apart, and overlapping by up to a hundredth of the smaller inradius.
 BOOST_AUTO_TEST_CASE(the_gap_is_what_supports_leave_along_the_normal_and_no_direction_leaves_more) {
   constexpr int kPairs = 6000;
   test::RandomPoses random(1);
-  AnyShape any_shape(random);
+  test::AnyShape any_shape(random);
   int apart = 0;
   for (int k = 0; k < kPairs; ++k) {
     const Shape a = any_shape(), b = any_shape();
