@@ -41,11 +41,11 @@ class NaturalSeries {
     const Coordinates x = coordinates_near<Real>(near, axes_.size(), place_at_x);
     const Place place = place_at_x(x);
     const Placement A = placement(a.x, a.R), dA = placement(a.dx, a.dR), dB = placement(b.dx, b.dR);
-    const auto [T, dT, ddT] = in_motion(x, place.basis.coordinates_of(block(dB - dA * place.T)));
-    const Block left_over = block(2 * dA * dT + A * ddT);
+    const InMotion moving = in_motion(x, place.basis.coordinates_of(block(dB - dA * place.T)));
+    const Block left_over = block(2 * dA * moving.dT + A * moving.ddT);
     const auto row = [&](const Block& along) {
       Row out;
-      out.block[0] = -block(Eigen::Map<const Placement>(along.data()) * T.transpose());
+      out.block[0] = -block(Eigen::Map<const Placement>(along.data()) * place.T.transpose());
       out.block[1] = along;
       out.bias = -along.dot(left_over);
       return out;
