@@ -10,21 +10,13 @@
 
 #include <vector>
 
+#include "cases/truth/solved/acting_forces.h"
 #include "core/engine/body_table.h"
 #include "core/scene/scene.h"
 
 namespace rigor::inline truth {
 
 enum class Formulation { body_rates, momentum };
-
-// The timed forces that act at t [s].
-inline std::vector<const TimedForce*> acting_at(const Scene& scene, double t) {
-  std::vector<const TimedForce*> acting;
-  for (const TimedForce& force : scene.forces) {
-    if (t >= force.from && t < force.until) acting.push_back(&force);
-  }
-  return acting;
-}
 
 template <typename Real>
 class EquationsOfMotion {

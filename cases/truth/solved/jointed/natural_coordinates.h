@@ -14,6 +14,7 @@
 #include <optional>
 #include <utility>
 
+#include "cases/truth/solved/acting_forces.h"
 #include "cases/truth/solved/jointed/axis_efforts.h"
 #include "cases/truth/solved/jointed/axis_rows.h"
 #include "cases/truth/solved/jointed/joint_axis.h"
@@ -138,12 +139,12 @@ class NaturalCoordinates {
 
   // d_i.d_j as of a rotation.
   static void add_own_rows(int body, const Frame& frame, std::vector<Row>& rows) {
-    for (int i = 0; i < 3; ++i) {
-      for (int j = i; j < 3; ++j) {
+    const auto gradients = frame.gradients();
+    for (int i = 0, k = 0; i < 3; ++i) {
+      for (int j = i; j < 3; ++j, ++k) {
         Row& row = rows.emplace_back();
         row.body[0] = body;
-        row.block[0].template segment<3>(3 + 3 * i) += frame.R.col(j);
-        row.block[0].template segment<3>(3 + 3 * j) += frame.R.col(i);
+        row.block[0] = gradients.col(k);
         row.gap = frame.R.col(i).dot(frame.R.col(j)) - (i == j ? 1 : 0);
         row.bias = 2 * frame.dR.col(i).dot(frame.dR.col(j));
       }

@@ -25,6 +25,17 @@ struct NaturalFrame {
     for (int i = 0; i < 3; ++i) sum += Vector(R.col(i)).cross(Vector(dR.col(i)));
     return sum / 2;
   }
+  // Of d_1.d_1, d_1.d_2, d_1.d_3, d_2.d_2, d_2.d_3 and d_3.d_3, by column.
+  Eigen::Matrix<Real, 12, 6> gradients() const {
+    Eigen::Matrix<Real, 12, 6> all = Eigen::Matrix<Real, 12, 6>::Zero();
+    for (int i = 0, k = 0; i < 3; ++i) {
+      for (int j = i; j < 3; ++j, ++k) {
+        all.col(k).template segment<3>(3 + 3 * i) += R.col(j);
+        all.col(k).template segment<3>(3 + 3 * j) += R.col(i);
+      }
+    }
+    return all;
+  }
   void push(const Vector& f, const Vector& at_B) {
     force.template head<3>() += f;
     for (int i = 0; i < 3; ++i) force.template segment<3>(3 + 3 * i) += at_B[i] * f;

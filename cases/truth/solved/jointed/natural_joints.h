@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -29,19 +28,13 @@ class NaturalJoints {
 
   // `order`: of each body, its place among those that move; -1 if it is fixed. The bodies are as in `start`.
   NaturalJoints(const Scene& scene, std::vector<int> order, const std::vector<Frame>& start)
-      : axes_(axes_in_use<Real>(scene)), order_(std::move(order)) {
-    for (std::size_t k = 0; k < scene.joints.size(); ++k) {
-      const Joint& joint = scene.joints[k];
-      const Frame &a = frame(start, joint.a), &b = frame(start, joint.b);
-      if (const auto* compound = std::get_if<CompoundJoint>(&joint.type))
-        series_.push_back({joint.a,
-                           joint.b,
-                           place_of(static_cast<int>(k) + 1, axes_),
-                           {compound->axes, a, b, series_length(joint, scene.bodies)}});
-      else
-        std::visit([&](const auto& type) { add(joint, type, a, b); }, joint.type);
+      : axes_(axes_in_use<Real>(scene)),
+        order_(std::move(order)),
+        transmissions_(scene, axes_),
+        series_(scene, axes_, [&](int body) -> const Frame& { return frame(start, body); }) {
+    for (const Joint& joint : scene.joints) {
+      std::visit([&](const auto& type) { add(joint, type, frame(start, joint.a), frame(start, joint.b)); }, joint.type);
     }
-    transmissions_.emplace(scene, axes_);
   }
 
   const std::vector<JointAxis<Real>>& axes() const { return axes_; }
@@ -56,8 +49,8 @@ class NaturalJoints {
     for (const Squared& squared : squares_) add_row(squared, frames, all);
     for (std::size_t k = 0; k < axes_.size(); ++k)
       rows.axes.push_back(axes_[k].is_in_series ? Row() : axis_row(axes_[k], frames, turned[k]));
-    for (const Series& series : series_) add_rows(series, frames, turned, rows);
-    transmissions_->add_rows([&](const JointAxis<Real>& axis, Real by) { return axis_row(axis, frames, by); }, rows);
+    series_.add_rows([&](int body) -> const Frame& { return frame(frames, body); }, order_, turned, rows);
+    transmissions_.add_rows([&](const JointAxis<Real>& axis, Real by) { return axis_row(axis, frames, by); }, rows);
   }
 
  private:
@@ -85,12 +78,6 @@ class NaturalJoints {
     static const Frame world;
     return body == kWorld ? world : frames[body];
   }
-
-  struct Series {
-    int a, b;
-    std::size_t first;  // of its axes, among those in use
-    NaturalSeries<Real> axes;
-  };
 
   // The row of an axis's rate; its gap is the coordinate, which equals `turned` up to less than half a turn.
   Row axis_row(const JointAxis<Real>& axis, const std::vector<Frame>& frames, Real turned) const {
@@ -143,7 +130,7 @@ class NaturalJoints {
   void add(const Joint& joint, const ScrewJoint& type, const Frame& a, const Frame& b) {
     add(joint, CylindricalJoint{type.anchor, type.axis}, a, b);
   }
-  // Its rows are those of a Series.
+  // CompoundJoints has its rows.
   void add(const Joint&, const CompoundJoint&, const Frame&, const Frame&) {}
   void add(const Joint&, const CompoundAxis&, const Frame&, const Frame&) {}
 
@@ -188,18 +175,6 @@ class NaturalJoints {
     for (int i = 0; i < 3; ++i) row.block[end].template segment<3>(3 + 3 * i) = weights[i] * on_axes;
   }
 
-  void add_rows(const Series& series, const std::vector<Frame>& frames, const Real* turned,
-                JointRows<Real, 12>& rows) const {
-    SeriesRows<Row> found = series.axes.at(frame(frames, series.a), frame(frames, series.b), turned + series.first);
-    const auto place = [&](Row& row) {
-      int end = 0;
-      for (const int body : {series.a, series.b}) row.body[end++] = body == kWorld ? -1 : order_[body];
-    };
-    for (Row& row : found.locked) place(row), rows.constraints.push_back(row);
-    for (std::size_t k = 0; k < found.coordinates.size(); ++k)
-      place(found.coordinates[k]), rows.axes[series.first + k] = found.coordinates[k];
-  }
-
   void add_rows(const SharedPoint& point, const std::vector<Frame>& frames, std::vector<Row>& rows) const {
     const Frame &a = frame(frames, point.a), &b = frame(frames, point.b);
     const Vector gap = b.point(point.at_b) - a.point(point.at_a);
@@ -240,13 +215,13 @@ class NaturalJoints {
   }
 
   std::vector<JointAxis<Real>> axes_;
-  std::optional<Transmissions<Real>> transmissions_;
   std::vector<int> order_;
+  Transmissions<Real> transmissions_;
+  CompoundJoints<NaturalSeries<Real>, Real> series_;
   std::vector<SharedPoint> points_;
   std::vector<DotProduct> dots_;
   std::vector<DotOffset> offsets_;
   std::vector<Squared> squares_;
-  std::vector<Series> series_;
 };
 
 }  // namespace rigor::inline truth

@@ -82,7 +82,6 @@ class NaturalSeries {
   }
   // exp(Z x): Z³ = -Z about a line, and Z² = 0 along one.
   static Map4 moved(const Axis& axis, const Real& x) {
-    using std::cos;
     using std::sin;
     if (!axis.turns) return Map4::Identity() + x * axis.rate;
     const Real half = sin(x / 2);
@@ -109,21 +108,8 @@ class NaturalSeries {
       by_axis[i] = axes_[i].rate * T;
     }
     for (Eigen::Index i = 0; i < n; ++i) columns.col(i) = block(A * by_axis[static_cast<std::size_t>(i)]);
-    columns.rightCols(6) = own_of(b);
+    columns.rightCols(6) = b.gradients();  // b keeps these by itself
     return {SeriesBasis<Real, 12>(columns, n, length_), block(placement(b.x, b.R) - A * T), T};
-  }
-
-  // The gradients of d_i.d_j, which b keeps by itself.
-  static Eigen::Matrix<Real, 12, 6> own_of(const Frame& b) {
-    Eigen::Matrix<Real, 12, 6> own = Eigen::Matrix<Real, 12, 6>::Zero();
-    int k = 0;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = i; j < 3; ++j, ++k) {
-        own.col(k).template segment<3>(3 + 3 * i) += b.R.col(j);
-        own.col(k).template segment<3>(3 + 3 * j) += b.R.col(i);
-      }
-    }
-    return own;
   }
 
   // T with its first and second derivatives, while the rates are constant.

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -33,19 +32,13 @@ class NewtonEulerJoints {
 
   // `order`: of each body, its place among those that move; -1 if it is fixed. The bodies are as in `start`.
   NewtonEulerJoints(const Scene& scene, std::vector<int> order, const std::vector<Pose>& start)
-      : axes_(axes_in_use<Real>(scene)), order_(std::move(order)) {
-    for (std::size_t k = 0; k < scene.joints.size(); ++k) {
-      const Joint& joint = scene.joints[k];
-      const Pose &a = pose(start, joint.a), &b = pose(start, joint.b);
-      if (const auto* compound = std::get_if<CompoundJoint>(&joint.type))
-        series_.push_back({joint.a,
-                           joint.b,
-                           place_of(static_cast<int>(k) + 1, axes_),
-                           {compound->axes, a, b, series_length(joint, scene.bodies)}});
-      else
-        std::visit([&](const auto& type) { add(joint, type, a, b); }, joint.type);
+      : axes_(axes_in_use<Real>(scene)),
+        order_(std::move(order)),
+        transmissions_(scene, axes_),
+        series_(scene, axes_, [&](int body) -> const Pose& { return pose(start, body); }) {
+    for (const Joint& joint : scene.joints) {
+      std::visit([&](const auto& type) { add(joint, type, pose(start, joint.a), pose(start, joint.b)); }, joint.type);
     }
-    transmissions_.emplace(scene, axes_);
   }
 
   const std::vector<JointAxis<Real>>& axes() const { return axes_; }
@@ -60,8 +53,8 @@ class NewtonEulerJoints {
     for (const Distance& distance : distances_) add_row(distance, poses, all);
     for (std::size_t k = 0; k < axes_.size(); ++k)
       rows.axes.push_back(axes_[k].is_in_series ? Row() : axis_row(axes_[k], poses, turned[k]));
-    for (const Series& series : series_) add_rows(series, poses, turned, rows);
-    transmissions_->add_rows([&](const JointAxis<Real>& axis, Real by) { return axis_row(axis, poses, by); }, rows);
+    series_.add_rows([&](int body) -> const Pose& { return pose(poses, body); }, order_, turned, rows);
+    transmissions_.add_rows([&](const JointAxis<Real>& axis, Real by) { return axis_row(axis, poses, by); }, rows);
   }
 
  private:
@@ -83,12 +76,6 @@ class NewtonEulerJoints {
     int a, b;
     Vector at_a, at_b;
     Real length;
-  };
-
-  struct Series {
-    int a, b;
-    std::size_t first;  // of its axes, among those in use
-    NewtonEulerSeries<Real> axes;
   };
 
   // The row of an axis's rate; its gap is the coordinate, which equals `turned` up to less than half a turn.
@@ -133,7 +120,7 @@ class NewtonEulerJoints {
   void add(const Joint& joint, const ScrewJoint& type, const Pose& a, const Pose& b) {
     add(joint, CylindricalJoint{type.anchor, type.axis}, a, b);
   }
-  // Its rows are those of a Series.
+  // CompoundJoints has its rows.
   void add(const Joint&, const CompoundJoint&, const Pose&, const Pose&) {}
   void add(const Joint&, const CompoundAxis&, const Pose&, const Pose&) {}
 
@@ -177,18 +164,6 @@ class NewtonEulerJoints {
   }
 
   static Vector centripetal(const Pose& body, const Vector& arm) { return body.w.cross(body.w.cross(arm)); }
-
-  void add_rows(const Series& series, const std::vector<Pose>& poses, const Real* turned,
-                JointRows<Real, 6>& rows) const {
-    SeriesRows<Row> found = series.axes.at(pose(poses, series.a), pose(poses, series.b), turned + series.first);
-    const auto place = [&](Row& row) {
-      int end = 0;
-      for (const int body : {series.a, series.b}) row.body[end++] = body == kWorld ? -1 : order_[body];
-    };
-    for (Row& row : found.locked) place(row), rows.constraints.push_back(row);
-    for (std::size_t k = 0; k < found.coordinates.size(); ++k)
-      place(found.coordinates[k]), rows.axes[series.first + k] = found.coordinates[k];
-  }
 
   void add_rows(const SharedPoint& point, const std::vector<Pose>& poses, std::vector<Row>& rows) const {
     const Pose &a = pose(poses, point.a), &b = pose(poses, point.b);
@@ -236,13 +211,13 @@ class NewtonEulerJoints {
   }
 
   std::vector<JointAxis<Real>> axes_;
-  std::optional<Transmissions<Real>> transmissions_;
   std::vector<int> order_;
+  Transmissions<Real> transmissions_;
+  CompoundJoints<NewtonEulerSeries<Real>, Real> series_;
   std::vector<SharedPoint> points_;
   std::vector<RightAngle> angles_;
   std::vector<Across> offsets_;
   std::vector<Distance> distances_;
-  std::vector<Series> series_;
 };
 
 }  // namespace rigor::inline truth

@@ -7,11 +7,14 @@
 #include <limits>
 #include <vector>
 
+#include "cases/truth/solved/jointed/axis_rows.h"
 #include "cases/truth/solved/jointed/constraint_rows.h"
+#include "cases/truth/solved/jointed/joint_axis.h"
 #include "core/scene/scene.h"
 
 namespace rigor::inline truth {
 
+// Of bodies, on a (end 0) and b (end 1), without these.
 template <typename Row>
 struct SeriesRows {
   std::vector<Row> locked, coordinates;
@@ -108,5 +111,48 @@ SeriesCoordinates<Real> coordinates_near(const Real* near, std::size_t axes, con
   }
   return x.setConstant(std::numeric_limits<Real>::quiet_NaN());
 }
+
+// The compound joints of a scene. `Series`: the rows of one, in the coordinates of its bodies.
+template <typename Series, typename Real>
+class CompoundJoints {
+ public:
+  // `body_of(k)`: body k, or the world, at t = 0.
+  template <typename BodyOf>
+  CompoundJoints(const Scene& scene, const std::vector<JointAxis<Real>>& axes, const BodyOf& body_of) {
+    for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+      const Joint& joint = scene.joints[k];
+      const auto* compound = std::get_if<CompoundJoint>(&joint.type);
+      if (!compound) continue;
+      const std::size_t first = place_of(static_cast<int>(k) + 1, axes);
+      all_.push_back({joint.a, joint.b, first,
+                      Series(compound->axes, body_of(joint.a), body_of(joint.b), series_length(joint, scene.bodies))});
+    }
+  }
+
+  // `order`: of each body, its place among those that move. `turned`: of each axis in use, nearly its coordinate.
+  template <typename BodyOf, int N>
+  void add_rows(const BodyOf& body_of, const std::vector<int>& order, const Real* turned,
+                JointRows<Real, N>& rows) const {
+    for (const One& one : all_) {
+      const auto found = one.series.at(body_of(one.a), body_of(one.b), turned + one.first);
+      const auto placed = [&](auto row) {
+        int end = 0;
+        for (const int body : {one.a, one.b}) row.body[end++] = body == kWorld ? -1 : order[body];
+        return row;
+      };
+      for (const auto& row : found.locked) rows.constraints.push_back(placed(row));
+      for (std::size_t k = 0; k < found.coordinates.size(); ++k)
+        rows.axes[one.first + k] = placed(found.coordinates[k]);
+    }
+  }
+
+ private:
+  struct One {
+    int a, b;
+    std::size_t first;  // of its axes, among those in use
+    Series series;
+  };
+  std::vector<One> all_;
+};
 
 }  // namespace rigor::inline truth

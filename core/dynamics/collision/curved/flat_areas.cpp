@@ -30,13 +30,6 @@ SidePlane side_of(const FlatFace& face, std::size_t k, const Vec3& n) {
   return {out, out.dot(face.corner(k))};
 }
 
-// m: so far outside of a face's border a point of the end still counts. Less of a steep face, on which it would lie
-// much higher or lower than at the border.
-double near_border(const Disc& end, const FlatFace& face, const Vec3& n) {
-  const double slope = face.normal().cross(n).norm() / std::abs(face.normal().dot(n));
-  return kNearBorder * end.radius * std::min(1.0, kNearlyFlat / slope);
-}
-
 // Whether p lies over the face. A point that lies outside by less than `near` [m] is moved onto the border.
 bool is_over(const FlatFace& face, Vec3& p, double near, const AreaPoints& to, std::size_t but = ~std::size_t{0}) {
   for (std::size_t k = 0; k < face.count(); ++k) {
@@ -59,7 +52,7 @@ void add_crossings(const Disc& upper, const FlatFace& lower, std::size_t k, cons
   const double share = distance / (length * upper.radius), rest = std::sqrt(1 - share * share);
   const auto add = [&](const Vec3& direction, std::uint32_t feature) {
     Vec3 on_rim = upper.centre + upper.radius * direction;
-    if (is_over(lower, on_rim, near_border(upper, lower, to.n), to, k))
+    if (is_over(lower, on_rim, kNearBorder * upper.radius, to, k))
       to.add(on_rim, along_onto(on_rim, to.n, lower.corner(0), lower.normal()),
              feature + static_cast<std::uint32_t>(k));
   };
@@ -154,7 +147,7 @@ void keep_spread(int first, Manifold& out) {
 void add_end(const Disc& upper, const FlatFace& lower, const AreaPoints& to) {
   for_each_rim_point(upper, to, [&](const RimPoint& point) {
     Vec3 at = point.at;
-    if (is_over(lower, at, near_border(upper, lower, to.n), to))
+    if (is_over(lower, at, kNearBorder * upper.radius, to))
       to.add(at, along_onto(at, to.n, lower.corner(0), lower.normal()), kOfRim + point.feature);
   });
   for (std::size_t k = 0; k < lower.count(); ++k) add_crossings(upper, lower, k, to);
