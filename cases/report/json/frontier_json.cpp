@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cases/analysis/frontier.h"
+#include "cases/report/wording/recommendation.h"
 #include "core/base/json.h"
 
 namespace rigor::inline report {
@@ -58,7 +59,7 @@ Json frontier_json(const Results& results) {
 }
 
 Json recommendation_json(const Results& results) {
-  const std::vector<Frontier> all = frontiers(results);
+  const std::vector<Frontier> all = nothing_moves(results) ? std::vector<Frontier>() : frontiers(results);
   Json json = {{"tolerance", kRecommendedTolerance}};
   const std::pair<const char*, Candidates> kinds[] = {
       {"external", Candidates::engines}, {"core", Candidates::core_methods}, {"reference", Candidates::references}};

@@ -124,6 +124,7 @@ Json case_json(const Results& results, const CaseResult& result) {
     json["truth"]["horizon"] = result.truth->horizon;
     json["truth"]["horizon_tolerance"] = kHorizonTolerance;
     if (!result.truth->caveat.empty()) json["truth"]["caveat"] = result.truth->caveat;
+    if (result.truth->is_still) json["truth"]["still"] = true;
   }
   if (result.truth) json["largest_kinetic_energy"] = result.truth->largest_kinetic_energy;
   if (!definition.losses.empty()) json["losses"] = losses_json(definition);

@@ -235,6 +235,12 @@ BOOST_AUTO_TEST_CASE(a_hundred_thousand_cells_are_shown, *boost::unit_test::time
   BOOST_TEST(says_what_there_is(grid, "hundred-thousand"));
 }
 
+BOOST_AUTO_TEST_CASE(a_case_in_which_nothing_moves_names_no_step) {
+  Results grid = sample_results();
+  for (CaseResult& result : grid.cases) result.truth->is_still = true;
+  BOOST_TEST(says_what_there_is(grid, "still"));
+}
+
 // Before schema 2 there was no frontier, recommendation, claim or phrase of a verdict.
 BOOST_AUTO_TEST_CASE(results_of_an_older_schema_are_shown) {
   Folder folder;

@@ -22,6 +22,8 @@ try {
   writeFileSync(join(shots, "first.png"), await browser.screenshot());
   const title = await browser.run("return document.querySelector('.answer-first h1').textContent");
   expect(title.length > 10 && !/undefined|NaN|null/.test(title), `the answer is "${title}"`);
+  const isStill = results.cases.length > 0 && results.cases.every(({ truth }) => truth.still);
+  expect(title.startsWith("Nothing moves in") === isStill, `the answer is "${title}"`);
   const rows = await browser.run("return document.querySelectorAll('.matrix th.case').length");
   expect(rows === results.cases.length, `${rows} of ${results.cases.length} cases are in the matrix`);
   const text = await browser.run("return document.body.innerText");
@@ -36,6 +38,8 @@ try {
   expect(new Set(balls).size === balls.length, "the sketch has two balls in one place");
   const shown = await browser.run("return document.querySelector('.view').innerText");
   expect(!/undefined|NaN/.test(shown), `the case says: ${/.{0,60}(undefined|NaN).{0,60}/.exec(shown)?.[0]}`);
+  const answer = await browser.run("return document.querySelector('.view .answer-first h1').textContent");
+  expect(answer.startsWith("Nothing moves in this case") === (one.truth.still ?? false), `the case's answer is "${answer}"`);
   writeFileSync(join(shots, "case.png"), await browser.screenshot());
   const complaints = (await browser.complaints()).filter((line) => !line.includes("GPU stall due to ReadPixels"));
   expect(!complaints.length, complaints.join("\n"));

@@ -5,6 +5,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "cases/report/json/frontier_json.h"
 #include "cases/report/wording/verdict_matrix.h"
 #include "cases/results/main_error.h"
 #include "tests/cases/priced_results.h"
@@ -120,13 +121,15 @@ BOOST_AUTO_TEST_CASE(a_case_in_which_nothing_moves_recommends_no_step) {
   grid.cases[0].truth->is_still = true;
   BOOST_TEST(recommendation(grid)->text == "Nothing moves in this case, so it tells no step size.");
   BOOST_TEST(has(findings(grid), "Nothing moves in this case, so it tells no step size."), all(findings(grid)));
+  BOOST_TEST(recommendation_json(grid)["external"].is_null());
   grid.cases.push_back(grid.cases[0]);
   BOOST_TEST(recommendation(grid)->text == "Nothing moves in these cases, so they tell no step size.");
   grid.cases[0].truth->is_still = false;
   BOOST_TEST(recommendation(grid)->text.starts_with("For 1 mm take first at 0.100000 s"));
+  BOOST_TEST(recommendation_json(grid)["external"]["engine"] == "first");
 }
 
-// Of issue: a method that blows up in one of two cases must not win, and no tie is broken by the order of a table.
+// A method that blows up in one of two cases must not win. The order of a table breaks no tie.
 BOOST_AUTO_TEST_CASE(a_blow_up_is_no_step_a_tie_names_both_and_a_reference_stands_apart) {
   Results grid;
   grid.engines = engines().infos();

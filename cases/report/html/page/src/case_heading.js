@@ -12,7 +12,7 @@ function truthText({ truth, duration }) {
   if (truth.horizon === undefined) return `Truth: ${truth.kind}, not found.`;
   if (truth.horizon >= duration)
     return `Truth: ${truth.kind}; its own error is at most ${digits(truth.error_at_end, 2)} m or rad over the whole ${digits(duration)} s.`;
-  return `Truth: ${truth.kind}; known to ${quantity(truth.horizon_tolerance, "m")} up to its horizon at ${truth.horizon.toFixed(1)} s of ${digits(duration)} s, and compared only so far: beyond it the motion is too sensitive.`;
+  return `Truth: ${truth.kind}; known to ${quantity(truth.horizon_tolerance, "m")} up to its horizon at ${truth.horizon.toFixed(1)} s of ${digits(duration)} s, and compared only so far: beyond it ${truth.caveat ? "it is not known" : "the motion is too sensitive"}.`;
 }
 
 function aboutTruth(one) {

@@ -1,5 +1,5 @@
 // One case: the truth, the runs in motion, their series over time, and the summary over all step sizes.
-import { asideOf, cellOf, dtOf, judgement, hasNumbers, isAgainstTolerance, isHeldToItself } from "./data.js";
+import { asideOf, cellOf, dtOf, judgement, hasNumbers, isAgainstTolerance, isHeldToItself, nothingMoves } from "./data.js";
 import { el, replace } from "./dom.js";
 import { isNumber, quantity } from "./format.js";
 import { caseHeading } from "./case_heading.js";
@@ -79,9 +79,11 @@ export class CaseView {
     const best = cheapest(curves, tolerance, isExternal),
       own = cheapest(curves, tolerance, isCoreMethod);
     const within = lengthOrAngle(tolerance);
-    const isComparable = curves.length > 0 && isAgainstTolerance(this.one);
+    const isComparable = curves.length > 0 && isAgainstTolerance(this.one) && !this.one.truth.still;
     const title = !isComparable
-      ? this.nearestToRecording()
+      ? this.one.truth.still
+        ? nothingMoves(1)
+        : this.nearestToRecording()
       : best
         ? ["For ", el("b", {}, within), " take ", el("b", {}, best.curve.engine), " at ", el("b", {}, `${best.point.dt} s`)]
         : curves.some(isExternal)

@@ -175,6 +175,10 @@ export const metricOf = (cell, name) => {
   return metric && isNumber(metric.value) ? metric.value : null;
 };
 
+// Of cases whose truth has no body that moves.
+export const nothingMoves = (count) =>
+  `Nothing moves in ${count === 1 ? "this case, so it tells" : "these cases, so they tell"} no step size`;
+
 // Whether the truth is made by the run's own code: it tells how a method converges, not whether it is right.
 export const isHeldToItself = (cell, name) => cell?.metrics?.[name]?.held_to_itself === true;
 // What a truth that is a witness says.

@@ -1,5 +1,5 @@
 // The first screen: which engine and step to take, the picture that says why, the problems found, and the matrix.
-import { judgement, metricOf } from "./data.js";
+import { judgement, metricOf, nothingMoves } from "./data.js";
 import { afterFirstPaint, el, replace, tableHead } from "./dom.js";
 import { EngineCards } from "./engine_cards.js";
 import { forceTrust } from "./force_trust.js";
@@ -82,7 +82,11 @@ export class Overview {
   }
 
   get hasCurves() {
-    return curvesOf(this.results, "").length > 0;
+    return curvesOf(this.results, "").length > 0 && !this.isStill;
+  }
+  get isStill() {
+    const { cases } = this.results;
+    return cases.length > 0 && cases.every(({ truth }) => truth.still);
   }
   get family() {
     return families(this.results).includes(state.family) ? state.family : "";
@@ -100,7 +104,7 @@ export class Overview {
   }
 
   drawFirst() {
-    this.curves = curvesOf(this.results, this.family);
+    this.curves = this.hasCurves ? curvesOf(this.results, this.family) : [];
     replace(this.answer, this.sentence());
     if (!this.hasCurves) return;
     this.drawChart();
@@ -122,11 +126,13 @@ export class Overview {
     const best = cheapest(this.curves, tolerance, isExternal);
     const recorded = this.results.findings.find((found) => found.topic === "recorded");
     const title = !this.hasCurves
-      ? (recorded?.text ?? this.withoutErrors())
+      ? this.isStill
+        ? nothingMoves(cases.length)
+        : (recorded?.text ?? this.withoutErrors())
       : best
         ? ["For ", el("b", {}, lengthOrAngle(tolerance)), " take ", el("b", {}, best.curve.engine), " at ", el("b", {}, `${best.point.dt} s`)]
         : `No engine stays within ${lengthOrAngle(tolerance)} at the steps tried`;
-    const beside = this.hasCurves || !recorded ? [] : [recorded.more, this.failures()];
+    const beside = this.isStill ? [this.failures()] : this.hasCurves || !recorded ? [] : [recorded.more, this.failures()];
     if (best) {
       const { cases: compared, failed } = best.point,
         { unsupported } = best.curve;
