@@ -44,33 +44,6 @@ void clip(const HullPolygon& polygon, const Vec3& n, double offset, std::uint32_
   }
 }
 
-// The face of `of` that looks most against n.
-std::size_t facing_of(const PlacedHull& of, const Vec3& n) {
-  std::size_t best = 0;
-  double least = kFarAway;
-  for (std::size_t f = 0; f < of.normals.size(); ++f) {
-    if (const double along = of.normals[f].dot(n); along < least) least = along, best = f;
-  }
-  return best;
-}
-
-bool has_corner(const Hull::Face& face, int corner) {
-  return std::find(face.corners.begin(), face.corners.end(), corner) != face.corners.end();
-}
-
-// Of the faces at a corner, the one that looks most against n. A sharp corner's faces all look aside, and another face
-// of the hull may look more against n.
-std::size_t facing_at(const PlacedHull& of, int corner, const Vec3& n) {
-  std::size_t best = facing_of(of, n);
-  if (has_corner(of.hull->faces[best], corner)) return best;
-  double least = kFarAway;
-  for (std::size_t f = 0; f < of.normals.size(); ++f) {
-    const double along = of.normals[f].dot(n);
-    if (along < least && has_corner(of.hull->faces[f], corner)) least = along, best = f;
-  }
-  return best;
-}
-
 // The corners of the incident face over the reference face, which looks along `axis.n`.
 const HullPolygon& clipped_face(const PlacedHull& reference, const PlacedHull& incident, const HullAxis& axis) {
   static thread_local HullPolygon polygon, clipped;

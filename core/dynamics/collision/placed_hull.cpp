@@ -1,5 +1,7 @@
 #include "core/dynamics/collision/placed_hull.h"
 
+#include <algorithm>
+
 namespace rigor::inline dynamics {
 namespace {
 
@@ -12,7 +14,30 @@ const Hull& unit_cube_hull() {
   return *cube;
 }
 
+bool has_corner(const Hull::Face& face, int corner) {
+  return std::find(face.corners.begin(), face.corners.end(), corner) != face.corners.end();
+}
+
+template <typename Counts>
+std::size_t facing_among(const PlacedHull& of, const Vec3& n, const Counts& counts) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < of.normals.size(); ++f) {
+    const double along = of.normals[f].dot(n);
+    if (along < least && counts(f)) least = along, best = f;
+  }
+  return best;
+}
+
 }  // namespace
+
+std::size_t facing_of(const PlacedHull& of, const Vec3& n) {
+  return facing_among(of, n, [](std::size_t) { return true; });
+}
+
+std::size_t facing_at(const PlacedHull& of, int corner, const Vec3& n) {
+  return facing_among(of, n, [&](std::size_t f) { return has_corner(of.hull->faces[f], corner); });
+}
 
 // The axes of a box may be mirrored, to number its corners as a mirror does. Corners of faces must run anticlockwise.
 void PlacedHull::place(const Box& box, const Pose& pose) {

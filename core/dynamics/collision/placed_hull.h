@@ -29,6 +29,11 @@ struct PlacedHull {
   void place(const Hull& of, const Vec3& stretch, double its_inradius, const Pose& pose);
 };
 
+// The face that looks most against n.
+std::size_t facing_of(const PlacedHull& of, const Vec3& n);
+// The same of the faces at a corner. Those of a sharp corner all look aside, and another face may look more against n.
+std::size_t facing_at(const PlacedHull& of, int corner, const Vec3& n);
+
 // The axis along which two polyhedra are separated most: a face normal, or the product of two edges whose arcs cross on
 // the Gauss map (Gregorius, The Separating Axis Test between Convex Polyhedra, 2013). Most faces and edges need no
 // look, for the other's inscribed ball bounds their separation. Nor does an edge if a point of the other lies deeper

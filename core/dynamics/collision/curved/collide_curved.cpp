@@ -46,8 +46,8 @@ Vec3 on_side(const CurvedSolid& cylinder, const RoundLine& other, const Vec3& n)
   return cylinder.centre + s * cylinder.axis() - cylinder.radius() * cylinder.across(n).normalized();
 }
 
-// Lines side by side have the gaps of balls around them. Where they cross at a small angle, the gap of a cylinder is
-// larger by its second order. `separation`: m, the exact one.
+// Lines side by side have the gaps of balls around them. The gap of a cylinder is larger by the second order of the
+// angle at which they cross. `separation`: m, the exact one.
 bool add_beside(const RoundLine& a, const RoundLine& b, double separation, Manifold& out) {
   const int first = out.size();
   if (!add_side_by_side(a, b, out)) return false;
@@ -88,40 +88,38 @@ class OnHull {
     if (axis_.separation > far_) return;
     const ManifoldPoint crossing = single_point(axis_, upper_point(), false);
     if (!solid_.is_cylinder) return out_.add(crossing);
-    const FlatFace face{hull_, facing()};
+    const FlatFace face{hull_, facing_at(hull_, furthest_along(axis_.n), -axis_.n)};
     const Disc end = end_against(solid_, axis_.n);
-    const double smaller = std::min(solid_.inradius(), hull_.inradius);
-    const auto points = [&](const Vec3& n) { return AreaPoints{n, false, kOutsideArea * smaller, out_}; };
     const auto is_same = [&](const Vec3& n) { return sine_between(n, axis_.n) < kUpright; };
     const bool is_by_end = is_same(end.out) && !is_same(face.normal());
     if (sine_between(face.normal(), axis_.n) < kNearlyFlat && !is_by_end) {
       add_area(solid_, face, points(face.normal()));
-      return complete(crossing, is_same(face.normal()), smaller, out_);
+      return complete(crossing, is_same(face.normal()), smaller(), out_);
     }
     if (sine_between(end.out, axis_.n) < kNearlyFlat) {
       add_area(end, face, points(-end.out));
-      return complete(crossing, is_same(-end.out), smaller, out_);
+      return complete(crossing, is_same(-end.out), smaller(), out_);
     }
     if (!lies_along_edge()) out_.add(crossing);
   }
 
  private:
-  // Of the faces at the corner that lies furthest along the axis, the one that looks most along it.
-  std::size_t facing() const {
-    int corner = 0;
-    for (std::size_t i = 1; i < hull_.points.size(); ++i) {
-      if (axis_.n.dot(hull_.points[i]) > axis_.n.dot(hull_.points[PlacedHull::index(corner)]))
-        corner = static_cast<int>(i);
-    }
+  int furthest_along(const Vec3& n) const {
     std::size_t best = 0;
-    double most = -2;
-    for (std::size_t f = 0; f < hull_.normals.size(); ++f) {
-      const std::vector<int>& corners = hull_.hull->faces[f].corners;
-      const double along = axis_.n.dot(hull_.normals[f]);
-      if (along > most && std::find(corners.begin(), corners.end(), corner) != corners.end()) best = f, most = along;
+    for (std::size_t i = 1; i < hull_.points.size(); ++i) {
+      if (n.dot(hull_.points[i]) > n.dot(hull_.points[best])) best = i;
     }
-    return best;
+    return static_cast<int>(best);
   }
+
+  // The points of an area across n.
+  AreaPoints points(const Vec3& n) const {
+    constexpr double kRise = 1e-5;  // of the radius: of a nearly flat face over what counts outside of its border
+    const double reach = n.dot(hull_.points[PlacedHull::index(furthest_along(n))]),
+                 separation = n.dot(solid_.centre) - solid_.reach(n) - reach;
+    return {n, false, kOutsideArea * smaller(), out_, separation - kRise * solid_.radius()};
+  }
+  double smaller() const { return std::min(solid_.inradius(), hull_.inradius); }
 
   Line edge() const {
     const Hull::Edge& of = hull_.hull->edges[PlacedHull::index(axis_.edge)];

@@ -3,6 +3,8 @@
 // the rim crosses the border of the other shape; and corners of the other shape on the end.
 #pragma once
 
+#include <limits>
+
 #include "core/dynamics/collision/curved/curved_solid.h"
 #include "core/dynamics/collision/placed_hull.h"
 
@@ -14,9 +16,12 @@ struct AreaPoints {
   bool is_reversed;  // whether the manifold's normal is -n
   double outside;    // m: so far outside of a border a point still counts
   Manifold& out;
+  // m: no gap along n is less. A point a little outside of a steep face would have one, far below the shape itself.
+  double least = -std::numeric_limits<double>::infinity();
 
   void add(const Vec3& upper, const Vec3& lower, std::uint32_t feature) const {
-    out.add(is_reversed ? Vec3(-n) : n, 0.5 * (upper + lower), n.dot(upper - lower), feature);
+    const double gap = n.dot(upper - lower);
+    if (gap >= least) out.add(is_reversed ? Vec3(-n) : n, 0.5 * (upper + lower), gap, feature);
   }
 };
 

@@ -249,8 +249,8 @@ BOOST_AUTO_TEST_CASE(a_compound_touches_with_each_of_its_parts) {
   }
 }
 
-// The least gap of shapes that overlap is the shortest way that parts them, by their supports alone. Points of a flat
-// end leave out what is 1e-5 of its width deeper.
+// The least gap of shapes that overlap is the shortest way that parts them, by their supports alone. A flat end that is
+// tilted against that way by less than kNearlyFlat counts along its own normal. That is seldom longer by 1e-4 m.
 BOOST_AUTO_TEST_CASE(random_shapes_overlap_as_deep_as_their_supports_say) {
   constexpr int kPairs = 20000;
   test::RandomPoses random(2);
