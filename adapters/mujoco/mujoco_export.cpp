@@ -22,7 +22,7 @@ std::string escaped(const std::string& name) {
   return text;
 }
 
-// By principal moments and axes: a full inertia MuJoCo would diagonalise to 2.5e-8 of itself only.
+// Principal moments and axes: MuJoCo would diagonalise a full inertia to 2.5e-8 of itself only.
 std::string inertia_of_body(const Body& body) {
   if (body.inertia.isDiagonal(0)) return fmt::format(R"(diaginertia="{}")", numbers(Vec3(body.inertia.diagonal())));
   const SymmetricEigen principal = eigen_of(body.inertia);

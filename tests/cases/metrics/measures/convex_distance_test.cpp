@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(the_gap_is_what_supports_leave_along_the_normal_and_no_dire
       BOOST_TEST(std::abs(apart_along(found.normal, a, pose_a, b, pose_b) - found.gap) < 1e-9);
       for (const double aside : {0.001, 0.03, 1.0}) {
         const Vec3 n = (found.normal + random.vector(aside)).normalized();
-        BOOST_TEST(apart_along(n, a, pose_a, b, pose_b) < found.gap + 1e-6);  // its error: of some metres
+        BOOST_TEST(apart_along(n, a, pose_a, b, pose_b) < found.gap + 1e-6);  // the search ends so near
       }
     }
   }
